@@ -144,11 +144,12 @@ shows "a click takes a point of the curve" '^ point [0-9]* of'
 click 60 2
 shows "a click on the title goes to the next view" '2 Distribution of'
 click "$(screen | tail -n 1 | sed 's/? help.*//' | wc -c)" 24
-shows "a click on the footer is its key" 'Keys (Up and Down'
+shows "a click on the footer is its key" 'Keys and glossary'
+shows "from its beginning" '│ Moving'
 wheel 65 40 12
-shows "the wheel scrolls the list of keys" 'Tab n'
+hides "the wheel scrolls the list of keys" '│ Moving'
 keys Escape
-hides "Esc closes it" 'Keys (Up and Down'
+hides "Esc closes it" 'Keys and glossary'
 keys M
 shows "M switches the mouse off" 'mouse off'
 keys M

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "tui/app/keys.h"
+#include "tui/help/help_list.h"
 #include "tui/view/views.h"
 
 static int scope_of(GHashTable *codes, int code)
@@ -143,6 +144,63 @@ static void test_texts(void)
     g_assert_cmpstr(gb_keys_at(count - 2).brief, ==, "help");
 }
 
+/* The help begins with a heading and has each of them once. */
+static void test_headings(void)
+{
+    GHashTable *seen = g_hash_table_new(g_str_hash, g_str_equal);
+    g_assert_nonnull(gb_keys_heading(0));
+    for (size_t i = 0; i < gb_keys_count(); i++) {
+        const char *heading = gb_keys_heading(i);
+        g_assert_true(heading == NULL || g_hash_table_add(seen, (void *)heading));
+    }
+    g_assert_cmpuint(g_hash_table_size(seen), ==, 10);
+    g_hash_table_destroy(seen);
+}
+
+/* Each pane has keys of its own, all of which act in it. */
+static void test_footers(void)
+{
+    for (enum gb_pane pane = GB_PANE_PARAMS; pane < GB_PANES; pane++) {
+        const char *const *name = gb_keys_footer(pane);
+        g_assert_nonnull(name[0]);
+        for (int i = 0; i < GB_KEYS_FOOTER && name[i] != NULL; i++) {
+            struct gb_key key;
+            g_test_message("pane %d: %s", (int)pane, name[i]);
+            g_assert_true(gb_keys_named(name[i], &key));
+            g_assert_nonnull(key.brief);
+            g_assert_cmpint(key.scope & (1 << pane), !=, 0);
+        }
+        for (enum gb_pane other = GB_PANE_PARAMS; other < pane; other++) {
+            g_assert_true(gb_keys_footer(other)[1] != name[1] ||
+                          gb_keys_footer(other)[2] != name[2]);
+        }
+    }
+}
+
+/* The help has every row of the tables of docs/glossary.md. */
+static void test_glossary(void)
+{
+    char *path = g_build_filename(g_getenv("GB_PRESET_DIR"), "..", "docs", "glossary.md",
+                                  NULL);
+    char *page = NULL;
+    size_t count = 0;
+    const struct gb_help_word *words = gb_help_list_words(&count);
+    size_t rows = 0;
+    g_assert_true(g_file_get_contents(path, &page, NULL, NULL));
+    for (const char *at = page; (at = strstr(at, "\n| ")) != NULL; at++) {
+        rows += !g_str_has_prefix(at, "\n| word | meaning");
+    }
+    for (size_t i = 0; i < count; i++) {
+        g_assert_cmpuint(strlen(words[i].meaning), >, 0);
+        g_assert_null(strchr(words[i].meaning, '`'));
+        rows -= words[i].word != NULL;
+    }
+    g_assert_cmpuint(rows, ==, 0);
+    g_assert_cmpuint(count, >, 50);
+    g_free(page);
+    g_free(path);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -152,5 +210,8 @@ int main(int argc, char **argv)
     g_test_add_func("/tui/keys/views", test_views);
     g_test_add_func("/tui/keys/plain-key", test_plain_key);
     g_test_add_func("/tui/keys/texts", test_texts);
+    g_test_add_func("/tui/keys/headings", test_headings);
+    g_test_add_func("/tui/keys/footers", test_footers);
+    g_test_add_func("/tui/keys/glossary", test_glossary);
     return g_test_run();
 }

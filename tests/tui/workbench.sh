@@ -85,9 +85,9 @@ keys 4
 shows "4 shows the steps of a quasi-static run" '4 Pressure against step'
 is "its loading is one line" [ "$(screen | grep -c "● loading")" -eq 1 ]
 keys 1 '?'
-shows "? lists the keys" 'Keys (Up and Down'
+shows "? lists the keys" 'Keys and glossary'
 keys Escape
-hides "Esc closes the help" 'Keys (Up and Down'
+hides "Esc closes the help" 'Keys and glossary'
 keys w
 shows "w asks for a name" 'Save the parameters'
 keys C-u mine Enter

@@ -1,6 +1,8 @@
 #include "tui/app/keys.h"
 
+#include <glib.h>
 #include <ncurses.h>
+#include <string.h>
 
 #include "tui/app/command/key_commands.h"
 #include "tui/view/views.h"
@@ -12,14 +14,15 @@ enum { CTRL_L = 'L' & 31, CTRL_R = 'R' & 31 };
 /* Every command has a plain character: terminals and multiplexers intercept function
  * keys. */
 static const struct gb_key before_views[] = {
-    {{KEY_UP, 'k'}, "Up k", NULL, "up; the packing: seen from above", GB_KEY_LISTS, gb_pane_commands_navigate,
-     GB_ACTION_UP},
-    {{KEY_DOWN, 'j'}, "Down j", NULL, "down; the packing: seen from below", GB_KEY_LISTS, gb_pane_commands_navigate,
-     GB_ACTION_DOWN},
-    {{KEY_LEFT, 'h'}, "Left h", NULL, "cursor to the previous point; turn the packing", GB_KEY_PLOT,
+    {{KEY_UP, 'k'}, "Up k", "scroll", "up; the packing: seen from above", GB_KEY_LISTS,
+     gb_pane_commands_navigate, GB_ACTION_UP},
+    {{KEY_DOWN, 'j'}, "Down j", NULL, "down; the packing: seen from below", GB_KEY_LISTS,
+     gb_pane_commands_navigate, GB_ACTION_DOWN},
+    {{KEY_LEFT, 'h'}, "Left h", "cursor",
+     "cursor to the previous point; turn the packing", GB_KEY_PLOT,
      gb_pane_commands_navigate, GB_ACTION_LEFT},
-    {{KEY_RIGHT, 'l'}, "Right l", NULL, "cursor to the next point; turn the packing", GB_KEY_PLOT,
-     gb_pane_commands_navigate, GB_ACTION_RIGHT},
+    {{KEY_RIGHT, 'l'}, "Right l", NULL, "cursor to the next point; turn the packing",
+     GB_KEY_PLOT, gb_pane_commands_navigate, GB_ACTION_RIGHT},
     {{KEY_PPAGE, '['}, "PgUp [", NULL, "one page or ten points back", GB_KEY_LISTS,
      gb_pane_commands_navigate, GB_ACTION_PAGE_UP},
     {{KEY_NPAGE, ']'}, "PgDn ]", NULL, "one page or ten points forward", GB_KEY_LISTS,
@@ -32,31 +35,43 @@ static const struct gb_key before_views[] = {
      GB_ACTION_NONE},
     {{KEY_BTAB, 'N'}, "S-Tab N", NULL, "previous pane", GB_KEY_ANY_PANE,
      gb_pane_commands_previous, GB_ACTION_NONE},
-    {{'z'}, "z", NULL, "zoom: the pane alone, or all panes", GB_KEY_ANY_PANE,
+    {{'z'}, "z", "zoom", "zoom: the pane alone, or all panes", GB_KEY_ANY_PANE,
      gb_pane_commands_zoom, GB_ACTION_NONE},
+    {{GB_KEY_ESCAPE}, "Esc", NULL, "close or cancel; cursor off", GB_KEY_PLOT,
+     gb_pane_commands_navigate, GB_ACTION_BACK},
     {{'\n', '\r', KEY_ENTER, 'i'}, "Enter i", "edit",
      "edit the parameter, or the leg; accept, apply", GB_KEY_PARAMS | GB_KEY_PLOT,
      gb_pane_commands_navigate, GB_ACTION_ENTER},
-    {{GB_KEY_ESCAPE}, "Esc", NULL, "close or cancel; cursor off", GB_KEY_PLOT,
-     gb_pane_commands_navigate, GB_ACTION_BACK},
-    {{'/'}, "/", NULL, "find a parameter by its name", GB_KEY_ANY_PANE,
+    {{'/'}, "/", "find", "find a parameter by name, symbol or meaning", GB_KEY_ANY_PANE,
      gb_pane_commands_find, GB_ACTION_NONE},
     {{'+', '='}, "+ =", "increase", "increase the parameter, or its next choice",
      GB_KEY_ANY_PANE, gb_pane_commands_increase, GB_ACTION_NONE},
     {{'-', '_'}, "- _", NULL, "decrease the parameter, or its previous choice",
      GB_KEY_ANY_PANE, gb_pane_commands_decrease, GB_ACTION_NONE},
-    {{'u', '<'}, "u <", NULL, "undo the last change, with its curve",
+    {{'u', '<'}, "u <", "undo", "undo the last change, with its curve",
      GB_KEY_ANY_PANE | GB_KEY_LEGS, gb_pane_commands_undo, GB_ACTION_NONE},
     {{CTRL_R, '>'}, "^R >", NULL, "redo the change undone", GB_KEY_ANY_PANE,
      gb_pane_commands_redo, GB_ACTION_NONE},
     {{'B'}, "B", NULL, "back to the value that the run uses", GB_KEY_PARAMS,
      gb_pane_commands_revert, GB_ACTION_NONE},
+    {{'A'}, "A", NULL, "list all parameters, or those in use", GB_KEY_ANY_PANE,
+     gb_pane_commands_list_all, GB_ACTION_NONE},
+    {{'d'}, "d", "material", "material: a list of names with what changes",
+     GB_KEY_ANY_PANE, gb_file_commands_material, GB_ACTION_NONE},
     {{'r'}, "r", "run", "run the parameters shown; a long run asks", GB_KEY_ANY_PANE,
      gb_run_commands_start, GB_ACTION_NONE},
     {{'p'}, "p", "pause", "pause or resume the engine", GB_KEY_ANY_PANE,
      gb_run_commands_pause, GB_ACTION_NONE},
     {{' '}, "Space", "freeze", "freeze the view; the engine continues", GB_KEY_ANY_PANE,
      gb_run_commands_freeze, GB_ACTION_NONE},
+    {{'f'}, "f", "what-if", "what-if: continue the run with other values",
+     GB_KEY_ANY_PANE, gb_run_commands_what_if, GB_ACTION_NONE},
+    {{'D'}, "D", NULL, "drop the changes that a what-if has left", GB_KEY_ANY_PANE,
+     gb_run_commands_drop_changes, GB_ACTION_NONE},
+    {{'a'}, "a", NULL, "full cell after the quick one: automatic, or r", GB_KEY_ANY_PANE,
+     gb_run_commands_auto_start, GB_ACTION_NONE},
+    {{'t'}, "t", NULL, "take over the attached run", GB_KEY_ANY_PANE,
+     gb_run_commands_take_over, GB_ACTION_NONE},
 };
 
 /* The keys of the views come between the two tables: see row_of_view. */
@@ -71,56 +86,40 @@ static const struct gb_key after_views[] = {
      gb_view_commands_colour, GB_ACTION_NONE},
     {{'m'}, "m", NULL, "show or hide previous curves that are not pinned",
      GB_KEY_ANY_PANE, gb_view_commands_previous_curves, GB_ACTION_NONE},
-    {{'O'}, "O", NULL, "list of curves: pin, name, hide, delete", GB_KEY_ANY_PANE,
+    {{'O'}, "O", "curves", "list of curves: pin, name, hide, delete", GB_KEY_ANY_PANE,
      gb_curve_commands_open, GB_ACTION_NONE},
     {{'Z'}, "Z", NULL, "ranges of the axes, or automatic ones", GB_KEY_ANY_PANE,
      gb_view_commands_ranges, GB_ACTION_NONE},
-    {{'@'}, "@", NULL, "cursor at a pressure that is typed", GB_KEY_ANY_PANE,
+    {{'@'}, "@", "pressure", "cursor at a pressure that is typed", GB_KEY_ANY_PANE,
      gb_view_commands_pressure, GB_ACTION_NONE},
-    {{'#'}, "#", NULL, "densities of the curves, differences, verdicts", GB_KEY_ANY_PANE,
-     gb_view_commands_densities, GB_ACTION_NONE},
+    {{'#'}, "#", "table", "densities of the curves, differences, verdicts",
+     GB_KEY_ANY_PANE, gb_view_commands_densities, GB_ACTION_NONE},
     {{'b'}, "b", NULL, "plot with braille, blocks or ASCII", GB_KEY_ANY_PANE,
      gb_view_commands_glyphs, GB_ACTION_NONE},
-    {{'f'}, "f", NULL, "what-if: continue the run with other values", GB_KEY_ANY_PANE,
-     gb_run_commands_what_if, GB_ACTION_NONE},
-    {{'D'}, "D", NULL, "drop the changes that a what-if has left", GB_KEY_ANY_PANE,
-     gb_run_commands_drop_changes, GB_ACTION_NONE},
-    {{'a'}, "a", NULL, "full cell after the quick one: automatic, or r", GB_KEY_ANY_PANE,
-     gb_run_commands_auto_start, GB_ACTION_NONE},
-    {{'A'}, "A", NULL, "list all parameters, or those in use", GB_KEY_ANY_PANE,
-     gb_pane_commands_list_all, GB_ACTION_NONE},
+    {{'c'}, "c", "command", "shell command that repeats the run", GB_KEY_ANY_PANE,
+     gb_file_commands_shell, GB_ACTION_NONE},
+    {{'y'}, "y", "copy", "copy parameter, values at the cursor, folder",
+     GB_KEY_ANY_PANE | GB_KEY_COPIED, gb_copy_commands_copy, GB_ACTION_NONE},
     {{'e'}, "e", "data", "measured data over the plot, or a chart.csv", GB_KEY_ANY_PANE,
      gb_file_commands_data, GB_ACTION_NONE},
-    {{'c'}, "c", NULL, "shell command that repeats the run", GB_KEY_ANY_PANE,
-     gb_file_commands_shell, GB_ACTION_NONE},
-    {{'y'}, "y", NULL, "copy parameter, values at the cursor, folder",
-     GB_KEY_ANY_PANE | GB_KEY_COPIED, gb_copy_commands_copy, GB_ACTION_NONE},
-    {{'t'}, "t", NULL, "take over the attached run", GB_KEY_ANY_PANE,
-     gb_run_commands_take_over, GB_ACTION_NONE},
-    {{'s'}, "s", NULL, "picture of the packing: what, colour, cut, file", GB_KEY_ANY_PANE,
-     gb_file_commands_picture, GB_ACTION_NONE},
-    {{'x'}, "x", NULL, "report on the run, as a folder", GB_KEY_ANY_PANE,
+    {{'s'}, "s", "picture", "picture of the packing: what, colour, cut, file",
+     GB_KEY_ANY_PANE, gb_file_commands_picture, GB_ACTION_NONE},
+    {{'x'}, "x", "report", "report on the run, as a folder", GB_KEY_ANY_PANE,
      gb_file_commands_report, GB_ACTION_NONE},
-    {{'R'}, "R", NULL, "replicas of this scene: mean and band", GB_KEY_ANY_PANE,
+    {{'R'}, "R", "replicas", "replicas of this scene: mean and band", GB_KEY_ANY_PANE,
      gb_job_commands_replicas, GB_ACTION_NONE},
-    {{'C'}, "C", NULL, "calibrate parameters to the measured data", GB_KEY_ANY_PANE,
-     gb_job_commands_calibrate, GB_ACTION_NONE},
+    {{'C'}, "C", "calibrate", "calibrate parameters to the measured data",
+     GB_KEY_ANY_PANE, gb_job_commands_calibrate, GB_ACTION_NONE},
     {{'Y'}, "Y", NULL, "elastic moduli of the run's states; again: stop", GB_KEY_ANY_PANE,
      gb_job_commands_moduli, GB_ACTION_NONE},
-    {{'X'}, "X", NULL, "chart: accuracy against cost; again: stop",
+    {{'X'}, "X", "chart", "chart: accuracy against cost; again: stop",
      GB_KEY_ANY_PANE, gb_chart_commands_open, GB_ACTION_NONE},
-    {{'W'}, "W", NULL, "result of the last job, or of view E or S", GB_KEY_ANY_PANE,
+    {{'W'}, "W", "result", "result of the last job, or of view E or S", GB_KEY_ANY_PANE,
      gb_result_commands_show, GB_ACTION_NONE},
     {{'w'}, "w", "save", "save the parameters as a preset", GB_KEY_ANY_PANE,
      gb_file_commands_save, GB_ACTION_NONE},
     {{'o'}, "o", "open", "open a preset and run it", GB_KEY_ANY_PANE,
      gb_file_commands_open, GB_ACTION_NONE},
-    {{'d'}, "d", NULL, "material: a list of names with what changes", GB_KEY_ANY_PANE,
-     gb_file_commands_material, GB_ACTION_NONE},
-    {{'H'}, "H", NULL, "colours: next theme, which is remembered", GB_KEY_ANY_PANE,
-     gb_screen_commands_theme, GB_ACTION_NONE},
-    {{'M'}, "M", NULL, "mouse on or off (Shift-drag selects text)", GB_KEY_ANY_PANE,
-     gb_screen_commands_mouse, GB_ACTION_NONE},
     {{'O'}, "O", "add", "legs of a path: add one behind", GB_KEY_LEGS,
      gb_leg_commands_add, GB_ACTION_NONE},
     {{'I'}, "I", "insert", "legs of a path: insert one before", GB_KEY_LEGS,
@@ -141,10 +140,14 @@ static const struct gb_key after_views[] = {
      gb_curve_commands_hide, GB_ACTION_NONE},
     {{'D'}, "D", NULL, "list of curves: delete", GB_KEY_CURVES, gb_curve_commands_delete,
      GB_ACTION_NONE},
+    {{'H'}, "H", NULL, "colours: next theme, which is remembered", GB_KEY_ANY_PANE,
+     gb_screen_commands_theme, GB_ACTION_NONE},
+    {{'M'}, "M", NULL, "mouse on or off (Shift-drag selects text)", GB_KEY_ANY_PANE,
+     gb_screen_commands_mouse, GB_ACTION_NONE},
     {{CTRL_L}, "^L", NULL, "repaint the screen", GB_KEY_ANY_PANE,
      gb_screen_commands_repaint, GB_ACTION_NONE},
-    {{'?', KEY_F(1)}, "? F1", "help", "this list", GB_KEY_ANY_PANE,
-     gb_screen_commands_help, GB_ACTION_NONE},
+    {{'?', KEY_F(1)}, "? F1", "help", "keys and glossary, filtered by typing",
+     GB_KEY_ANY_PANE, gb_screen_commands_help, GB_ACTION_NONE},
     {{'q', KEY_F(10)}, "q F10", "quit", "quit; asks while a run is live", GB_KEY_ALWAYS,
      gb_screen_commands_quit, GB_ACTION_NONE},
 };
@@ -188,6 +191,62 @@ bool gb_keys_find(int code, int scope, struct gb_key *key)
             if (key->code[k] == code) {
                 return true;
             }
+        }
+    }
+    return false;
+}
+
+/* The first row of each group of the help. */
+static const struct {
+    const char *first;
+    int scope;
+    const char *heading;
+} groups[] = {
+    {"Up k", GB_KEY_ANY_PANE, "Moving"},
+    {"Enter i", GB_KEY_ANY_PANE, "Parameters"},
+    {"r", GB_KEY_ANY_PANE, "Runs"},
+    {"1", GB_KEY_ANY_PANE, "Views and cursor"},
+    {"c", GB_KEY_ANY_PANE, "Copies, data, pictures, reports"},
+    {"R", GB_KEY_ANY_PANE, "Jobs beside the run"},
+    {"w", GB_KEY_ANY_PANE, "Presets"},
+    {"O", GB_KEY_LEGS, "Legs of a loading path"},
+    {"*", GB_KEY_CURVES, "List of curves"},
+    {"H", GB_KEY_ANY_PANE, "Screen"},
+};
+
+const char *gb_keys_heading(size_t index)
+{
+    const struct gb_key key = gb_keys_at(index);
+    for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
+        if ((key.scope & groups[i].scope) && strcmp(groups[i].first, key.name) == 0) {
+            return groups[i].heading;
+        }
+    }
+    return NULL;
+}
+
+/* Names of keys by pane, the most useful ones first; help and quit follow. */
+static const char *const footers[GB_PANES][GB_KEYS_FOOTER] = {
+    [GB_PANE_PARAMS] = {"Tab n", "Enter i", "/", "+ =", "u <", "r", "p", "v", "d", "o",
+                        "w", "y", "z"},
+    [GB_PANE_PLOT] = {"Tab n", "v", "Left h", "@", "#", "O", "r", "p", "L", "e", "y", "z",
+                      "s", "Space", "R"},
+    [GB_PANE_STATE] = {"Tab n", "r", "p", "f", "R", "x", "c", "y", "z", "W", "X",
+                       "Space"},
+    [GB_PANE_EVENTS] = {"Tab n", "Up k", "r", "p", "y", "z", "s", "x", "v"},
+};
+
+const char *const *gb_keys_footer(enum gb_pane pane)
+{
+    return footers[pane];
+}
+
+bool gb_keys_named(const char *name, struct gb_key *key)
+{
+    for (size_t i = 0; i < gb_keys_count(); i++) {
+        *key = gb_keys_at(i);
+        if (strcmp(key->name, name) == 0) {
+            return true;
         }
     }
     return false;

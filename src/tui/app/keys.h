@@ -32,7 +32,7 @@ enum gb_key_scope {
 struct gb_key {
     int code[GB_KEYS_PER_ROW]; /* curses key codes; 0 after the last */
     const char *name;          /* as shown: "p", "Tab" */
-    const char *brief;         /* in the footer; NULL: only on the help page */
+    const char *brief;         /* in the footers; NULL: in none */
     const char *help;
     int scope; /* bits of enum gb_key_scope */
     void (*command)(struct gb_app *app, const struct gb_key *key);
@@ -42,6 +42,17 @@ struct gb_key {
 /* Number of rows, including the keys of the views. */
 size_t gb_keys_count(void);
 struct gb_key gb_keys_at(size_t index);
+
+/* Heading of the group that begins with this row; NULL: none begins. */
+const char *gb_keys_heading(size_t index);
+
+/* Names of the keys in the footer of a pane, as far as they fit: at most GB_KEYS_FOOTER,
+ * NULL after the last. */
+enum { GB_KEYS_FOOTER = 16 };
+const char *const *gb_keys_footer(enum gb_pane pane);
+
+/* The row with this name; false: none. */
+bool gb_keys_named(const char *name, struct gb_key *key);
 
 /* Row of a curses key code that has one of the bits of scope; false: none.  Rows of
  * different scopes may share a code. */

@@ -64,56 +64,53 @@ static int footer_width(const struct gb_key *key, int gap)
     return gb_paint_width(name) + 1 + gb_paint_width(key->brief) + gap;
 }
 
-enum { FOOTER_KEYS = 96 };
+/* A key in the footer and its column. */
+struct footer_key {
+    struct gb_key key;
+    int col;
+};
 
-/* Keys of a dialog stand in the dialog. */
-static bool in_footer(const struct gb_key *key)
-{
-    return key->brief != NULL && (key->scope & GB_KEY_ANY_PANE);
-}
+enum { FOOTER_KEYS = GB_KEYS_FOOTER + 2 };
 
-/* Columns of the keys in the footer: the first rows of the table that fit, and always the
- * last two, help and quit.  at[i] is -1 for the others.  Returns the number of rows of
- * the table. */
-static size_t layout_footer(int cols, int at[FOOTER_KEYS])
+/* The keys of the pane in front, as far as they fit, and always help and quit.  Returns
+ * their number. */
+static int layout_footer(enum gb_pane pane, int cols, struct footer_key in[FOOTER_KEYS])
 {
-    const size_t count = gb_keys_count();
-    int all = 0;
-    for (size_t i = 0; i < count; i++) {
-        const struct gb_key key = gb_keys_at(i);
-        all += in_footer(&key) ? footer_width(&key, 2) : 0;
+    const size_t rows = gb_keys_count();
+    const struct gb_key last[] = {gb_keys_at(rows - 2), gb_keys_at(rows - 1)};
+    const char *const *name = gb_keys_footer(pane);
+    int count = 0;
+    int all = footer_width(&last[0], 2) + footer_width(&last[1], 2);
+    while (count < GB_KEYS_FOOTER && name[count] != NULL &&
+           gb_keys_named(name[count], &in[count].key)) {
+        all += footer_width(&in[count++].key, 2);
     }
     const int gap = all <= cols ? 2 : 1;
-    const struct gb_key help = gb_keys_at(count - 2);
-    const struct gb_key quit = gb_keys_at(count - 1);
-    const int reserved = footer_width(&help, gap) + footer_width(&quit, 0);
+    const int reserved = footer_width(&last[0], gap) + footer_width(&last[1], 0);
     int col = gap - 1;
-    for (size_t i = 0; i < count; i++) {
-        const struct gb_key key = gb_keys_at(i);
-        const bool last = i + 2 >= count;
-        at[i] = -1;
-        if (in_footer(&key) &&
-            (last || col + footer_width(&key, gap) + reserved <= cols)) {
-            at[i] = col;
-            col += footer_width(&key, gap);
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        const int width = footer_width(&in[i].key, gap);
+        if (col + width + reserved <= cols) {
+            in[kept++] = (struct footer_key){in[i].key, col};
+            col += width;
         }
     }
-    return count;
+    in[kept++] = (struct footer_key){last[0], col};
+    in[kept++] = (struct footer_key){last[1], col + footer_width(&last[0], gap)};
+    return kept;
 }
 
 static void draw_footer(struct gb_screen *screen)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.footer);
-    int at[FOOTER_KEYS];
-    const size_t count = layout_footer(paint.rect.cols, at);
-    for (size_t i = 0; i < count; i++) {
-        const struct gb_key key = gb_keys_at(i);
+    struct footer_key in[FOOTER_KEYS];
+    const int count = layout_footer(screen->focus, paint.rect.cols, in);
+    for (int i = 0; i < count; i++) {
         char name[16];
-        brief_name(&key, name, sizeof name);
-        if (at[i] >= 0) {
-            const int col = gb_paint_text(&paint, 0, at[i], GB_STYLE_BOLD, name) + 1;
-            gb_paint_text(&paint, 0, col, GB_STYLE_DIM, key.brief);
-        }
+        brief_name(&in[i].key, name, sizeof name);
+        const int col = gb_paint_text(&paint, 0, in[i].col, GB_STYLE_BOLD, name) + 1;
+        gb_paint_text(&paint, 0, col, GB_STYLE_DIM, in[i].key.brief);
     }
 }
 
@@ -121,14 +118,14 @@ bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
                       struct gb_key *key)
 {
     const struct gb_rect *footer = &screen->layout.footer;
-    int at[FOOTER_KEYS];
+    struct footer_key in[FOOTER_KEYS];
     if (footer->rows == 0 || row != footer->row) {
         return false;
     }
-    const size_t count = layout_footer(footer->cols, at);
-    for (size_t i = 0; i < count; i++) {
-        *key = gb_keys_at(i);
-        if (at[i] >= 0 && col >= at[i] && col < at[i] + footer_width(key, 0)) {
+    const int count = layout_footer(screen->focus, footer->cols, in);
+    for (int i = 0; i < count; i++) {
+        *key = in[i].key;
+        if (col >= in[i].col && col < in[i].col + footer_width(key, 0)) {
             return true;
         }
     }

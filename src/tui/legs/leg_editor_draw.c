@@ -270,10 +270,11 @@ static void write_keys(const struct gb_leg_editor *editor, GString *text)
     for (size_t i = 0; i < gb_keys_count(); i++) {
         const struct gb_key key = gb_keys_at(i);
         if ((key.scope & GB_KEY_LEGS) && key.brief != NULL) {
-            g_string_append_printf(text, "%s %s  ", key.name, key.brief);
+            g_string_append_printf(text, "%.*s %s  ", (int)strcspn(key.name, " "),
+                                   key.name, key.brief);
         }
     }
-    g_string_append(text, "u undo  Esc restore");
+    g_string_append(text, "Esc restore");
 }
 
 void gb_leg_editor_draw(struct gb_leg_editor *editor, const struct gb_paint *inside)

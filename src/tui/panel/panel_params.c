@@ -162,26 +162,13 @@ void gb_panel_params_assignment(const struct gb_panel_params *panel,
     snprintf(text, size, "%s.%s=%s", field->group, field->key, value);
 }
 
-bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *session,
-                          const char *name)
+void gb_panel_params_go(struct gb_panel_params *panel, struct gb_session *session,
+                        int field)
 {
     size_t count = 0;
-    const struct gb_field *field = gb_params_fields(&count);
-    for (int exact = 1; exact >= 0; exact--) {
-        for (size_t i = 1; i <= count; i++) {
-            const size_t at = ((size_t)panel->focus + i) % count;
-            char full[64];
-            snprintf(full, sizeof full, "%s.%s", field[at].group, field[at].key);
-            const bool named =
-                strcmp(field[at].key, name) == 0 || strcmp(full, name) == 0;
-            if (exact ? named : strstr(full, name) != NULL) {
-                panel->focus = (int)at;
-                panel->all |= !gb_applies_field(gb_session_params(session), &field[at]);
-                return true;
-            }
-        }
-    }
-    return false;
+    panel->focus = field;
+    panel->all |=
+        !gb_applies_field(gb_session_params(session), &gb_params_fields(&count)[field]);
 }
 
 void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *session,
@@ -227,8 +214,12 @@ void gb_panel_params_describe(const struct gb_panel_params *panel,
     gb_field_accepted(field, accepted, sizeof accepted);
     if (panel->editing) {
         snprintf(message->text, sizeof message->text,
-                 "%s: %s.  Enter accepts, Esc cancels.  Accepted: %s", field->key,
-                 field->meaning, accepted);
+                 "%s: %s.  %sEnter accepts, Esc cancels.  Accepted: %s", field->key,
+                 field->meaning,
+                 panel->prompt.fresh && field->choices == NULL
+                     ? "Typing replaces, Left and End edit.  "
+                     : "",
+                 accepted);
     } else if (gb_session_differs(session, field)) {
         gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
         snprintf(message->text, sizeof message->text,

@@ -15,7 +15,7 @@ void gb_panel_params_edit_begin(struct gb_panel_params *panel, struct gb_session
     gb_params_format(gb_session_params(session), field, value, sizeof value);
     panel->editing = true;
     panel->choice = 0;
-    gb_prompt_set(&panel->prompt, value);
+    gb_prompt_offer(&panel->prompt, value);
     for (int i = 0; field->choices != NULL && field->choices[i] != NULL; i++) {
         if (strcmp(field->choices[i], value) == 0) {
             panel->choice = i;

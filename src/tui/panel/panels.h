@@ -38,11 +38,10 @@ void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *
                               enum gb_action action);
 /* Switches the list between all parameters and those of the scene. */
 void gb_panel_params_list_all(struct gb_panel_params *panel, struct gb_message *message);
-/* Moves to the next parameter with this text in "group.name"; an exact name is preferred.
- * The list shows all parameters if the scene does not use it.  False: no such
- * parameter. */
-bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *session,
-                          const char *name);
+/* Moves to a row of the field table; the list shows all parameters if the scene does not
+ * use it. */
+void gb_panel_params_go(struct gb_panel_params *panel, struct gb_session *session,
+                        int field);
 
 enum gb_panel_params_hit {
     GB_PANEL_PARAMS_MISS,

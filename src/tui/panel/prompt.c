@@ -15,7 +15,14 @@ void gb_prompt_set(struct gb_prompt *prompt, const char *text)
         prompt->text[prompt->length++] = g_utf8_get_char(at);
     }
     prompt->cursor = prompt->length;
+    prompt->fresh = false;
     g_free(valid);
+}
+
+void gb_prompt_offer(struct gb_prompt *prompt, const char *text)
+{
+    gb_prompt_set(prompt, text);
+    prompt->fresh = prompt->length > 0;
 }
 
 /* Removes `count` characters before index `end`. */
@@ -53,6 +60,11 @@ static void delete_forward(struct gb_prompt *prompt)
 
 bool gb_prompt_handle(struct gb_prompt *prompt, const struct gb_term_event *event)
 {
+    const bool replaces = prompt->fresh && event->kind == GB_TERM_TEXT;
+    prompt->fresh = false;
+    if (replaces) {
+        prompt->length = prompt->cursor = 0;
+    }
     if (event->kind == GB_TERM_TEXT) {
         return insert(prompt, (uint32_t)event->code);
     }
@@ -112,7 +124,9 @@ void gb_prompt_draw(const struct gb_prompt *prompt, const struct gb_paint *paint
         if (at < prompt->length) {
             utf8[g_unichar_to_utf8(prompt->text[at], utf8)] = '\0';
         }
-        gb_paint_text(paint, row, col + i,
-                      at == prompt->cursor ? GB_STYLE_SELECTED : GB_STYLE_EDIT, utf8);
+        const bool marked =
+            at == prompt->cursor || (prompt->fresh && at < prompt->length);
+        gb_paint_text(paint, row, col + i, marked ? GB_STYLE_SELECTED : GB_STYLE_EDIT,
+                      utf8);
     }
 }

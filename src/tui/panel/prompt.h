@@ -12,11 +12,15 @@ enum { GB_PROMPT_MAX = GB_PARAMS_VALUE_MAX };
 struct gb_prompt {
     uint32_t text[GB_PROMPT_MAX]; /* Unicode */
     int length, cursor;
+    bool fresh; /* the first character typed replaces the text */
     char utf8[4 * GB_PROMPT_MAX + 1];
 };
 
 /* Sets the text; the cursor is at its end. */
 void gb_prompt_set(struct gb_prompt *prompt, const char *text);
+
+/* The same, of an old value: the first character typed replaces it, other keys edit it. */
+void gb_prompt_offer(struct gb_prompt *prompt, const char *text);
 
 /* Handles a key or a character; false: not handled (Enter, Esc, Tab, ...). */
 bool gb_prompt_handle(struct gb_prompt *prompt, const struct gb_term_event *event);

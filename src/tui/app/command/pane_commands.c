@@ -50,20 +50,20 @@ void gb_pane_commands_zoom(struct gb_app *app, const struct gb_key *key)
 
 void gb_pane_commands_find(struct gb_app *app, const struct gb_key *key)
 {
+    struct gb_screen *screen = &app->screen;
     (void)key;
-    gb_dialog_show(&app->screen.dialog, &gb_dialogs_find, NULL);
+    gb_dialog_show_finder(&screen->dialog, &gb_dialogs_find,
+                          gb_session_params(&screen->session));
 }
 
 void gb_pane_commands_accept_find(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
-    if (gb_panel_params_find(&screen->params, &screen->session,
-                             gb_dialog_answer(&screen->dialog))) {
+    const int field = gb_param_finder_selected(&screen->dialog.finder);
+    if (field >= 0) {
+        gb_panel_params_go(&screen->params, &screen->session, field);
         screen->focus = GB_PANE_PARAMS;
         gb_dialog_close(&screen->dialog);
-    } else {
-        gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR,
-                           "no parameter has this text in its name");
     }
 }
 

@@ -26,6 +26,8 @@ void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
     dialog->type = type;
     if (type->form == &gb_dialog_forms_command) {
         dialog->text = g_strdup(content);
+    } else if (type->form == &gb_dialog_forms_help) {
+        gb_help_list_init(&dialog->help);
     } else if (type->form == &gb_dialog_forms_question) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", content);
     } else {
@@ -48,6 +50,14 @@ void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *
     gb_dialog_close(dialog);
     dialog->type = type;
     gb_leg_editor_init(&dialog->legs, params->path, params->dimension, glyphs);
+}
+
+void gb_dialog_show_finder(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           const struct gb_params *params)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    gb_param_finder_init(&dialog->finder, params);
 }
 
 void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,

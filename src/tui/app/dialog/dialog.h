@@ -5,7 +5,9 @@
 #include "tui/app/dialog/picture_form.h"
 #include "tui/app/keys.h"
 #include "tui/app/preset_browser.h"
+#include "tui/help/help_list.h"
 #include "tui/legs/leg_editor.h"
+#include "tui/panel/param_finder.h"
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 #include "tui/term/png_pixels.h"
@@ -55,6 +57,8 @@ struct gb_dialog {
     struct gb_leg_editor legs;
     struct gb_picture_form picture;
     struct gb_curve_list curves;
+    struct gb_param_finder finder;
+    struct gb_help_list help;
     struct gb_session *session;  /* of the tables of densities, results and curves */
     struct gb_png_pixels pixels; /* shown in pixels; owned */
     struct gb_rect field;        /* its cells on the screen */
@@ -76,6 +80,9 @@ void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_typ
 /* The legs of the loading path of these parameters. */
 void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                          const struct gb_params *params, enum gb_plot_glyphs glyphs);
+/* The search of a parameter; values are those of `params`. */
+void gb_dialog_show_finder(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           const struct gb_params *params);
 /* The table of densities, drawn anew with each frame. */
 void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                               struct gb_session *session, bool hide_previous);

@@ -8,11 +8,14 @@
 #include "tui/panel/density_table.h"
 
 enum {
-    HELP_COLS = 60,
+    HELP_ROWS = 48,
+    HELP_COLS = 72,
     DENSITIES_ROWS = 36,
     DENSITIES_COLS = 80,
     CURVES_ROWS = 14,
     CURVES_COLS = 80,
+    FINDER_ROWS = 24,
+    FINDER_COLS = 100,
     PRESETS_ROWS = 34,
     PRESETS_COLS = 84,
     LEGS_ROWS = 40,
@@ -21,7 +24,6 @@ enum {
     FAR = 100000,    /* beyond any list */
     PROMPT_ROWS = 5, /* without the note */
     PROMPT_COLS = 64,
-    NAME_COLS = 10,
     NOTE_ROWS = 3
 };
 
@@ -60,23 +62,25 @@ static const char *told_or_title(const struct gb_dialog *dialog)
     return dialog->note[0] != '\0' ? dialog->note : dialog->type->title;
 }
 
+static enum gb_dialog_result accept_prompt(struct gb_dialog *dialog, int code)
+{
+    (void)dialog;
+    return gb_keys_action(code) == GB_ACTION_ENTER ? GB_DIALOG_ACCEPTED : GB_DIALOG_OPEN;
+}
+
 /* --- help ------------------------------------------------------------------------- */
 
 static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
-    const int count = (int)gb_keys_count();
     const struct gb_paint frame =
-        gb_dialog_box(screen, count + 2, HELP_COLS, dialog->type->title);
+        gb_dialog_box(screen, HELP_ROWS, HELP_COLS, dialog->type->title);
     const struct gb_paint paint = gb_dialog_box_inside(&frame);
-    dialog->page = paint.rect.rows;
-    dialog->top = MAX(0, MIN(dialog->focus, count - dialog->page));
-    dialog->focus = dialog->top;
-    for (int i = 0; i < dialog->page && dialog->top + i < count; i++) {
-        const struct gb_key key = gb_keys_at((size_t)(dialog->top + i));
-        gb_paint_cell(&paint, i, 0, NAME_COLS, GB_STYLE_BOLD, key.name);
-        gb_paint_cell(&paint, i, NAME_COLS, paint.rect.cols - NAME_COLS, GB_STYLE_PLAIN,
-                      key.help);
-    }
+    gb_help_list_draw(&dialog->help, &paint);
+}
+
+static bool edit_help(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    return gb_help_list_handle(&dialog->help, event);
 }
 
 /* Lines by which a key moves in a list with this many lines per page. */
@@ -107,7 +111,14 @@ static enum gb_dialog_result scroll(struct gb_dialog *dialog, int code)
     return GB_DIALOG_OPEN;
 }
 
-const struct gb_dialog_form gb_dialog_forms_help = {draw_help, NULL, scroll};
+/* The list limits the position. */
+static enum gb_dialog_result scroll_help(struct gb_dialog *dialog, int code)
+{
+    dialog->help.top += list_step(gb_keys_action(code), dialog->help.page);
+    return GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_help = {draw_help, edit_help, scroll_help};
 
 /* --- table of densities ------------------------------------------------------------ */
 
@@ -187,6 +198,24 @@ static enum gb_dialog_result accept_preset(struct gb_dialog *dialog, int code)
 const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_presets,
                                                        accept_preset};
 
+/* --- search of a parameter --------------------------------------------------------- */
+
+static void draw_finder(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const struct gb_paint frame =
+        gb_dialog_box(screen, FINDER_ROWS, FINDER_COLS, dialog->type->title);
+    const struct gb_paint paint = gb_dialog_box_inside(&frame);
+    gb_param_finder_draw(&dialog->finder, &paint);
+}
+
+static bool edit_finder(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    return gb_param_finder_handle(&dialog->finder, event);
+}
+
+const struct gb_dialog_form gb_dialog_forms_finder = {draw_finder, edit_finder,
+                                                      accept_prompt};
+
 /* --- legs ------------------------------------------------------------------------- */
 
 static void draw_legs(struct gb_dialog *dialog, const struct gb_paint *screen)
@@ -255,12 +284,6 @@ static bool edit_prompt(struct gb_dialog *dialog, const struct gb_term_event *ev
     return edited;
 }
 
-static enum gb_dialog_result accept_prompt(struct gb_dialog *dialog, int code)
-{
-    (void)dialog;
-    return gb_keys_action(code) == GB_ACTION_ENTER ? GB_DIALOG_ACCEPTED : GB_DIALOG_OPEN;
-}
-
 const struct gb_dialog_form gb_dialog_forms_prompt = {draw_prompt, edit_prompt,
                                                       accept_prompt};
 
@@ -270,7 +293,7 @@ static void draw_picture(struct gb_dialog *dialog, const struct gb_paint *screen
 {
     const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
     const struct gb_paint frame = gb_dialog_box(screen, GB_PICTURE_FORM_ROWS + 2 + note,
-                                      PROMPT_COLS, dialog->type->title);
+                                                PROMPT_COLS, dialog->type->title);
     const struct gb_paint paint = gb_dialog_box_inside(&frame);
     gb_picture_form_draw(&dialog->picture, &paint);
     draw_note(dialog, &paint, GB_PICTURE_FORM_ROWS, note);

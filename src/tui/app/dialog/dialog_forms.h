@@ -8,6 +8,7 @@ extern const struct gb_dialog_form gb_dialog_forms_help;      /* the key table *
 extern const struct gb_dialog_form gb_dialog_forms_densities; /* the table */
 extern const struct gb_dialog_form gb_dialog_forms_curves;    /* run and previous ones */
 extern const struct gb_dialog_form gb_dialog_forms_presets;   /* list with a preview */
+extern const struct gb_dialog_form gb_dialog_forms_finder;    /* search of a parameter */
 extern const struct gb_dialog_form gb_dialog_forms_legs;      /* legs of a loading path */
 extern const struct gb_dialog_form gb_dialog_forms_prompt;    /* input line */
 extern const struct gb_dialog_form gb_dialog_forms_picture;   /* rows of choices */

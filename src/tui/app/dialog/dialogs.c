@@ -7,7 +7,7 @@
 
 const struct gb_dialog_type gb_dialogs_help = {
     .form = &gb_dialog_forms_help,
-    .title = "Keys (Up and Down scroll, Esc closes)",
+    .title = "Keys and glossary (type to filter, Esc closes)",
     .opened_by = gb_screen_commands_help,
 };
 
@@ -59,9 +59,8 @@ const struct gb_dialog_type gb_dialogs_what_if = {
 };
 
 const struct gb_dialog_type gb_dialogs_find = {
-    .form = &gb_dialog_forms_prompt,
-    .title = "Find a parameter (Esc cancels)",
-    .label = "Name or part of it:",
+    .form = &gb_dialog_forms_finder,
+    .title = "Find a parameter (Enter goes there, Esc)",
     .opened_by = gb_pane_commands_find,
     .accept = gb_pane_commands_accept_find,
 };
