@@ -4,6 +4,8 @@
 #include "base/vec.h"
 #include "common/unequal.h"
 #include "measure/observe.h"
+#include "pack/list/list_build.h"
+#include "pack/list/list_scan.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
 
@@ -183,6 +185,62 @@ static void test_lists(void)
     check_lists("numerics.precision=single");
 }
 
+/* Small spheres in a shell around one twenty times as large: `count` with it. */
+static void surround(int64_t count, double edge, double *position, double *diameter)
+{
+    GRand *random = g_rand_new_with_seed(5);
+    for (int64_t i = 0; i < count; i++) {
+        const double z = g_rand_double_range(random, -1.0, 1.0);
+        const double angle = g_rand_double_range(random, 0.0, 2.0 * M_PI);
+        const double far = i == 0 ? 0.0 : g_rand_double_range(random, 10.5, 13.0);
+        const double across = far * sqrt(1.0 - z * z), half = 0.5 * edge;
+        diameter[i] = i == 0 ? 20.0 : g_rand_double_range(random, 0.8, 1.2);
+        position[3 * i] = half + across * cos(angle);
+        position[3 * i + 1] = half + across * sin(angle);
+        position[3 * i + 2] = half + far * z;
+    }
+    g_rand_free(random);
+}
+
+/* Sizes of a ratio of 20: more neighbours around a particle than bins are scanned for, and
+ * the pairs of a scan of all. */
+static void test_wide(void)
+{
+    enum { COUNT = 3000 };
+    const struct gb_list_build_range range = {1.2, 0.1};
+    const double edge = 46.0, gap = range.cutoff - 1.0 + range.skin;
+    double *x = g_new(double, 3 * COUNT), *d = g_new(double, COUNT);
+    struct gb_neighbour_list list;
+    struct gb_cell cell;
+    struct gb_error err = {0};
+    int64_t within = 0, near = 0;
+    surround(COUNT, edge, x, d);
+    gb_cell_init(&cell, 3, (const double[3]){edge, edge, edge});
+    g_assert_true(
+        gb_neighbour_list_init(&list, COUNT, GB_NEIGHBOUR_LIST_TRANSPOSED, &err));
+    list.diameter = d;
+    list.largest = 20.0;
+    g_assert_true(gb_list_build(&list, &cell, x, range, NULL, &err));
+    for (int64_t i = 0; i < COUNT; i++) {
+        for (int64_t j = 0; j < i; j++) {
+            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
+                           x[3 * i + 2] - x[3 * j + 2]};
+            gb_cell_nearest(&cell, r);
+            const double apart = gb_vec_length(r) - 0.5 * (d[i] + d[j]);
+            within += apart < gap;
+            near += apart < range.skin;
+        }
+    }
+    const int64_t around = list.near.start[1] + list.far.start[1];
+    g_test_message("%d pairs, %d around the large sphere", (int)within, (int)around);
+    g_assert_cmpint(around, >, GB_LIST_SCAN_MAX);
+    g_assert_cmpint(list.near.pair_count, ==, near);
+    g_assert_cmpint(list.far.pair_count, ==, within - near);
+    gb_neighbour_list_finish(&list);
+    g_free(x);
+    g_free(d);
+}
+
 /* Several blocks of particles. */
 static void check_threads(const char *precision)
 {
@@ -303,6 +361,7 @@ int main(int argc, char **argv)
     g_test_add_func("/sized/one-size", test_one_size);
     g_test_add_func("/sized/packing", test_packing);
     g_test_add_func("/sized/lists", test_lists);
+    g_test_add_func("/sized/wide", test_wide);
     g_test_add_func("/sized/threads", test_threads);
     return g_test_run();
 }

@@ -64,12 +64,14 @@ static struct gb_world *squeezed(const struct gb_model *model, struct gb_relax *
 
 /* Evaluations of fifty equal strain steps and ten back, and the contacts per particle
  * they end with. */
-static int64_t pressed(const char *relaxer, double factor_z, double *contacts)
+static int64_t pressed(const char *relaxer, const char *sizes, double factor_z,
+                       double *contacts)
 {
     char assignment[64];
     g_snprintf(assignment, sizeof assignment, "numerics.relaxer=%s", relaxer);
     const struct gb_params params =
-        scene_params(assignment, "particles.count=400", "numerics.tolerance=1e-2", NULL);
+        scene_params(assignment, sizes, "particles.sigma=0.4", "particles.count=400",
+                     "numerics.tolerance=1e-2", NULL);
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model);
     struct gb_relax *relax = NULL;
@@ -97,12 +99,27 @@ static int64_t pressed(const char *relaxer, double factor_z, double *contacts)
 static void test_predict(void)
 {
     double plain = 0.0, predicted = 0.0;
-    const int64_t many = pressed("fire", 0.998, &plain);
-    const int64_t few = pressed("predict", 0.998, &predicted);
+    const int64_t many = pressed("fire", "particles.distribution=mono", 0.998, &plain);
+    const int64_t few =
+        pressed("predict", "particles.distribution=mono", 0.998, &predicted);
     g_test_message("fire %" G_GINT64_FORMAT ", predict %" G_GINT64_FORMAT " evaluations",
                    many, few);
     g_assert_cmpint(4 * few, <, 3 * many);
     g_assert_cmpfloat_with_epsilon(predicted, plain, 0.05);
+}
+
+/* Particles of many sizes, whose mass is their diameter, take few evaluations more than
+ * those of one. */
+static void test_sizes(void)
+{
+    double contacts = 0.0;
+    const int64_t one =
+        pressed("predict", "particles.distribution=mono", 0.998, &contacts);
+    const int64_t many =
+        pressed("predict", "particles.distribution=lognormal", 0.998, &contacts);
+    g_test_message("one size %" G_GINT64_FORMAT ", many %" G_GINT64_FORMAT " evaluations",
+                   one, many);
+    g_assert_cmpint(4 * many, <, 5 * one);
 }
 
 /* Under light loads predict answers to a share of its tolerance, later to all of it. */
@@ -348,6 +365,7 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/relax/all", test_all);
     g_test_add_func("/relax/predict", test_predict);
+    g_test_add_func("/relax/sizes", test_sizes);
     g_test_add_func("/relax/light", test_light);
     g_test_add_func("/relax/predicted", test_predicted);
     g_test_add_func("/relax/slowed", test_slowed);

@@ -43,7 +43,8 @@ GB_SIMD_LOOP void update_tile(struct gb_f32_state *f32, const struct pass *pass,
     float *v = f32->velocity + at, *w = f32->spin + at;
     struct tile s;
     s.rotation[n] = 0.0F;
-    load_forces(f32->wrench + begin, particles, &s);
+    load_forces(f32->wrench + begin, pass->diameter ? pass->diameter + begin : NULL,
+                particles, &s);
     update_velocity(pass, pass->kick, n, s.force, v, s.displacement, s.square);
     const bool too_fast = find_too_fast(pass, particles, &s);
     if (too_fast) {
@@ -160,7 +161,8 @@ double gb_integrate_f32_step(struct gb_world *world, const struct gb_integrate_f
                         .margin = (float)gb_list_check_margin(engine),
                         .bounds_known = gb_engine_state_bounds_known(&engine->state),
                         .speed2_max = (float)(limit * limit),
-                        .rotation_total = rotation_total};
+                        .rotation_total = rotation_total,
+                        .diameter = engine->particles.diameter};
     fill_axes(&pass, &engine->particles.cell);
     if (gb_engine_state_fixed_stale(&engine->state)) {
         gb_f32_convert_particles(engine, 0, engine->particles.count);

@@ -6,8 +6,8 @@
 struct gb_model;
 struct gb_world;
 
-/* Velocity update in single precision, for relaxers with inertia.  The velocities belong
- * to the world; one pass over each block of particles does all that lies between two
+/* Velocity update in single precision, for relaxers with inertia: F is the force over the
+ * diameter, the mass that relaxers give to a particle.  The velocities belong to the world; one pass over each block of particles does all that lies between two
  * evaluations: velocities, fixed-point positions and rotation increments for the next
  * sweep, and the bounds of the displacements since the list build.  `position` follows
  * with gb_world_synchronise. */

@@ -27,6 +27,7 @@ struct pass {
     float speed2_max;  /* squared velocity of the largest displacement */
     float rounding;    /* d; upper bound of the rounding to fixed point */
     float *rotation_total;
+    const double *diameter; /* of all particles; NULL: all are 1 */
     /* for every number of a tile, by its axis: fixed-point units per d, and d per unit */
     float units[NUMBERS], unit[NUMBERS];
 };
@@ -51,10 +52,20 @@ struct motion {
     float displacement; /* largest bound, d */
 };
 
-GB_SIMD_LOOP void load_forces(float (*wrench)[GB_F32_STATE_WRENCH], int particles,
+/* Forces over the masses, which are the diameters (NULL: all 1). */
+GB_SIMD_LOOP void load_forces(float (*wrench)[GB_F32_STATE_WRENCH],
+                              const double *diameter, int particles,
                               struct tile *restrict tile)
 {
-    for (int i = 0; i < particles; i++) {
+    float inverse[TILE];
+    for (int i = 0; diameter && i < particles; i++) {
+        inverse[i] = 1.0F / (float)diameter[i];
+    }
+    for (int i = 0; diameter && i < particles; i++) {
+        gb_row_store(tile->force + 3 * i, gb_row_load(wrench[i]) * inverse[i]);
+        gb_row_store(tile->torque + 3 * i, gb_row_load(wrench[i] + 4) * inverse[i]);
+    }
+    for (int i = 0; !diameter && i < particles; i++) {
         gb_row_store(tile->force + 3 * i, gb_row_load(wrench[i]));
         gb_row_store(tile->torque + 3 * i, gb_row_load(wrench[i] + 4));
     }

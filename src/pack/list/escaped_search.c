@@ -89,11 +89,12 @@ static double distance2(const struct gb_engine *engine, bool tilted, int64_t i, 
 static void keep_near(const struct gb_engine *engine, int64_t i,
                       struct candidates *candidates)
 {
-    const double reach = engine->list.largest + GB_ESCAPED_SEARCH_TOLERANCE +
-                         engine->model->numerics.cutoff - 1.0;
+    const double gap = engine->model->numerics.cutoff - 1.0 + GB_ESCAPED_SEARCH_TOLERANCE;
+    const double *d = engine->list.diameter;
     int kept = 0;
     for (int k = 0; k < candidates->count; k++) {
         const int32_t j = candidates->particle[k];
+        const double reach = gap + (d ? 0.5 * (d[i] + d[j]) : 1.0);
         const double squared = distance2(engine, candidates->tilted, i, j);
         candidates->particle[kept] = j;
         kept += squared < reach * reach && j != i;

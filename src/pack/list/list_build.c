@@ -7,6 +7,7 @@
 #include "base/team/team.h"
 #include "pack/kernel/share.h"
 #include "pack/list/blocks.h"
+#include "pack/list/list_levels.h"
 #include "pack/list/list_scan.h"
 #include "scene/tolerances.h"
 
@@ -19,13 +20,13 @@ struct part {
     struct gb_error err;
 };
 
-/* Room for the neighbours of one more particle. */
-static bool make_room(struct part *part)
+/* Room for the neighbours of one more particle, `most` of them. */
+static bool make_room(struct part *part, int64_t most)
 {
-    if (part->count + GB_LIST_SCAN_MAX < part->capacity) {
+    if (part->count + most < part->capacity) {
         return true;
     }
-    const int64_t room = 2 * part->capacity + 16 * GB_LIST_SCAN_MAX;
+    const int64_t room = 2 * part->capacity + most + 16 * GB_LIST_SCAN_MAX;
     struct gb_list_scan_found *found =
         gb_alloc_array((size_t)room, sizeof *found, &part->err);
     if (!found) {
@@ -45,12 +46,12 @@ static bool scan_part(struct gb_neighbour_list *list, const struct gb_list_scan 
                       struct part *part)
 {
     for (int64_t i = part->begin; i < part->end; i++) {
-        if (!make_room(part)) {
+        if (!make_room(part, gb_list_scan_most(scan, i))) {
             return false;
         }
         const struct gb_list_scan_found *found = part->found + part->count;
         const int n = gb_list_scan_particle(scan, i, part->found + part->count);
-        if (n >= GB_LIST_SCAN_MAX) {
+        if (!scan->candidates && n >= GB_LIST_SCAN_MAX) {
             return gb_error_set(&part->err, GB_ERR_GUARD,
                                 "particle %lld has %d or more neighbours within %.3g d: "
                                 "the packing has collapsed",
@@ -225,6 +226,18 @@ static void record_build(struct gb_neighbour_list *list, const struct gb_cell *c
     list->strain = 0.0;
 }
 
+/* Candidates by levels of size for unequal particles, but for a tilted cell.  Errors: those of
+ * gb_list_levels_find. */
+static bool find_candidates(struct gb_neighbour_list *list, struct gb_list_scan *scan,
+                            struct gb_error *err)
+{
+    if (!list->diameter || scan->grid.tilted) {
+        return true;
+    }
+    return (list->levels || gb_list_levels_create(&list->levels, list->count, err)) &&
+           gb_list_levels_find(list->levels, scan, list->count, err);
+}
+
 bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
                    const double *position, struct gb_list_build_range range,
                    struct gb_team *team, struct gb_error *err)
@@ -246,7 +259,8 @@ bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
         .shift = (const double(*)[3])list->shift,
         .diameter = list->diameter};
     gb_neighbour_grid_init(&scan.grid, cell, reach, list->count);
-    if (!gb_list_scan_sort(&scan, list, err) || !fill_lists(list, &scan, team, err)) {
+    if (!find_candidates(list, &scan, err) || !gb_list_scan_sort(&scan, list, err) ||
+        !fill_lists(list, &scan, team, err)) {
         return false;
     }
     if (list->layout == GB_NEIGHBOUR_LIST_TRANSPOSED) {

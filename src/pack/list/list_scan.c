@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
+#include "pack/structure/hgrid.h"
 
 /* A call for every row of bins would take a third of the time of a scan. */
 #define INLINE static inline __attribute__((always_inline))
@@ -193,8 +194,33 @@ INLINE int scan_row(const struct gb_list_scan *scan, int64_t i, int bin, int row
     return n;
 }
 
-int gb_list_scan_particle(const struct gb_list_scan *scan, int64_t i,
-                          struct gb_list_scan_found *found)
+/* The candidates of particle i within their bounds; they are sorted. */
+static int scan_candidates(const struct gb_list_scan *scan, int64_t i,
+                           struct gb_list_scan_found *found)
+{
+    const struct gb_hgrid *pairs = scan->candidates;
+    int n = 0;
+    for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+        const int32_t other = pairs->other[k];
+        double squared;
+        const uint8_t image = nearest_image(scan->cell, scan->position + 3 * i,
+                                            scan->position + 3 * other, &squared);
+        const struct gb_list_scan_bounds own = bounds_of(scan, i, other, scan->bounds);
+        found[n] = (struct gb_list_scan_found){other, image, squared < own.near};
+        n += squared < own.far;
+    }
+    return n;
+}
+
+int64_t gb_list_scan_most(const struct gb_list_scan *scan, int64_t i)
+{
+    const struct gb_hgrid *pairs = scan->candidates;
+    return pairs ? pairs->start[i + 1] - pairs->start[i] : GB_LIST_SCAN_MAX;
+}
+
+/* Particles in the bins around particle i. */
+static int scan_around(const struct gb_list_scan *scan, int64_t i,
+                       struct gb_list_scan_found *found)
 {
     const struct gb_neighbour_grid *grid = &scan->grid;
     int bin[3], n = 0;
@@ -211,4 +237,10 @@ int gb_list_scan_particle(const struct gb_list_scan *scan, int64_t i,
     }
     (n <= FEW ? sort_few : sort_many)(found, n);
     return n;
+}
+
+int gb_list_scan_particle(const struct gb_list_scan *scan, int64_t i,
+                          struct gb_list_scan_found *found)
+{
+    return (scan->candidates ? scan_candidates : scan_around)(scan, i, found);
 }

@@ -5,8 +5,8 @@
 
 /* Scan of the bins around a particle for its neighbours; the inner part of a list build. */
 
-/* Neighbours that one particle may have within the reach: a dense packing has about a
- * dozen. */
+/* Neighbours that one particle may have within the reach in bins: a dense packing of like
+ * sizes has about a dozen. */
 enum { GB_LIST_SCAN_MAX = 256 };
 
 struct gb_list_scan_found {
@@ -22,6 +22,8 @@ struct gb_list_scan_bounds {
     double skin, gap; /* beyond contact: of `near`, of `far`, d */
 };
 
+struct gb_hgrid;
+
 struct gb_list_scan {
     struct gb_neighbour_grid grid;
     struct gb_list_scan_bounds bounds;
@@ -31,7 +33,8 @@ struct gb_list_scan {
         *sorted)[3]; /* positions bin by bin: bin c is start[c] .. start[c + 1] */
     const double (*shift)[3];
     const int32_t *start, *particle;
-    const double *diameter; /* NULL: all are 1 */
+    const double *diameter;            /* NULL: all are 1 */
+    const struct gb_hgrid *candidates; /* instead of the bins; NULL: none */
 };
 
 /* Sorts the particles of the list into the bins of `scan->grid`, ascending within each.
@@ -39,7 +42,10 @@ struct gb_list_scan {
 bool gb_list_scan_sort(struct gb_list_scan *scan, struct gb_neighbour_list *list,
                        struct gb_error *err);
 
-/* Neighbours j > i of particle i, sorted, at most GB_LIST_SCAN_MAX; returns their number. */
+/* Most neighbours j > i that particle i may get. */
+int64_t gb_list_scan_most(const struct gb_list_scan *scan, int64_t i);
+
+/* Neighbours j > i of particle i, sorted, at most so many; returns their number. */
 int gb_list_scan_particle(const struct gb_list_scan *scan, int64_t i,
                           struct gb_list_scan_found *found);
 

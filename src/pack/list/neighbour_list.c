@@ -7,6 +7,7 @@
 #include "base/mat.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
+#include "pack/list/list_levels.h"
 
 /* Pairs reserved beyond the need whenever a list grows. */
 enum { EXTRA = 256 };
@@ -84,6 +85,7 @@ void gb_neighbour_list_finish(struct gb_neighbour_list *list)
     gb_alloc_free(list->bin_particle);
     gb_alloc_free(list->built_position);
     gb_alloc_free(list->inserted);
+    gb_list_levels_destroy(list->levels);
     *list = (struct gb_neighbour_list){0};
 }
 

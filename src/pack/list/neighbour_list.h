@@ -14,6 +14,8 @@ enum gb_neighbour_list_layout {
                                    * slots for later insertions; single precision */
 };
 
+struct gb_list_levels;
+
 /* One of the two lists: pairs (i, other[k]) with i < other[k] for k in
  * [start[i], start[i+1]), sorted by other within i. */
 struct gb_pair_list {
@@ -47,7 +49,8 @@ struct gb_neighbour_list {
     /* Diameters (d), owned by gb_particles: a pair touches at the mean of its diameters,
      * and skin and cutoff - 1 count from there.  NULL: all are 1. */
     const double *diameter;
-    double largest; /* diameter, d */
+    double largest;                /* diameter, d */
+    struct gb_list_levels *levels; /* scratch of builds with diameters; NULL: none yet */
     struct gb_pair_list near, far;
     enum gb_neighbour_list_layout layout;
     /* Displacement of each periodic image (d), added to x_i - x_j; as of the last

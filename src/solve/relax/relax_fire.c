@@ -3,7 +3,9 @@
  * Mater. Sci. 175, 109584 (2020).
  *
  * Rotations count as lengths, angle * sqrt(inertia), so that all six degrees of freedom
- * of a particle have unit mass. */
+ * of a particle have the same mass: its diameter, as the stiffness around a particle grows
+ * with it (P1's sizes of sigma 0.25 and 0.55 take 1.4 and 1.6 times as many evaluations with
+ * unit masses, 1.2 and 1.9 with the square).  The mixing takes the norms of unit masses. */
 #include <math.h>
 #include <string.h>
 
@@ -56,6 +58,7 @@ struct pass {
     double keep, kick, back; /* x -= back v, v = keep v + kick F ... */
     double step;             /* ... x += step v */
     double most2;            /* squared speed of the largest allowed displacement */
+    const double *diameter;  /* NULL: all are 1 */
     double speed2[SPANS];    /* of v and, with their inertia, of w */
 };
 
@@ -125,6 +128,46 @@ GB_SIMD_WIDTHS(update,
                 struct update_factors by, double *speed2),
                (x, v, force, count, by, speed2))
 
+/* Numbers of unequal particles whose forces are divided by their diameters at a time. */
+enum { DIVIDED = 3 * 64 };
+
+static void divide(const double *force, const double *diameter, int64_t count,
+                   double *quotient)
+{
+    for (int64_t i = 0; i < count; i++) {
+        quotient[i] = force[i] / diameter[i / 3];
+    }
+}
+
+/* update with the diameters as masses; x, v and force of the numbers from begin on. */
+static double update_sized(const struct pass *pass, double *x, double *v,
+                           const double *force, int64_t begin, int64_t end,
+                           struct update_factors by)
+{
+    double sum = 0.0;
+    for (int64_t i = begin; i < end; i += DIVIDED) {
+        const int64_t count = end - i < DIVIDED ? end - i : DIVIDED;
+        double quotient[DIVIDED], part;
+        divide(force + i, pass->diameter + i / 3, count, quotient);
+        update(x + i, v + i, quotient, count, by, &part);
+        sum += part;
+    }
+    return sum;
+}
+
+/* Moves x and v of the numbers begin .. end - 1; returns the sum of the squares of v. */
+static double update_part(const struct pass *pass, double *x, double *v,
+                          const double *force, int64_t begin, int64_t end,
+                          struct update_factors by)
+{
+    double sum;
+    if (pass->diameter) {
+        return update_sized(pass, x, v, force, begin, end, by);
+    }
+    update(x + begin, v + begin, force + begin, end - begin, by, &sum);
+    return sum;
+}
+
 /* Largest squared speed of `count` particles. */
 GB_SIMD_LOOP void fastest_loop(const double *restrict v, int64_t count,
                                double *restrict most)
@@ -183,12 +226,12 @@ static void update_span(void *data, int64_t span)
                                                pass->step};
     const struct update_factors rotation = {pass->keep, pass->kick / inertia, pass->back,
                                             pass->step};
-    double moving, rotating, most2;
-    update(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
-           translation, &moving);
+    double most2;
+    const double moving = update_part(pass, pass->b.position, pass->v, pass->b.force,
+                                      begin, end, translation);
     fastest(pass->v + begin, (end - begin) / 3, &most2);
-    update(pass->b.rotation + begin, pass->w + begin, pass->b.torque + begin, end - begin,
-           rotation, &rotating);
+    const double rotating = update_part(pass, pass->b.rotation, pass->w, pass->b.torque,
+                                        begin, end, rotation);
     pass->speed2[span] = moving + inertia * rotating;
     if (most2 > pass->most2) {
         pass->speed2[span] -= limit_displacement(pass, begin, end);
@@ -213,7 +256,8 @@ static double update_world(struct gb_relax *relax, struct gb_world *world,
                         .kick = by->kick,
                         .back = by->back,
                         .step = by->step,
-                        .most2 = bound * bound};
+                        .most2 = bound * bound,
+                        .diameter = gb_world_diameters(world)};
     gb_team_run(gb_world_team(world), SPANS, update_span, &pass);
     double speed2 = 0.0;
     for (int s = 0; s < SPANS; s++) {
