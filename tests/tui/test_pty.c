@@ -315,7 +315,7 @@ static int64_t measure_latency(struct answer waited[LATENCY_KEYS])
     open_program(&child, 40, 120, "particles.count=8000");
     receive_bursts(&child, 20);
     for (int i = 0; i < LATENCY_KEYS; i++) {
-        waited[i] = await(&child, "?", "scroll,");
+        waited[i] = await(&child, "?", "filter,");
         fewest = MIN(fewest, waited[i].frames);
         await(&child, "?", "against relative density");
         receive(&child, 0.31, false);
@@ -354,7 +354,7 @@ static void check_images(const char *option, const char *begins)
     open_program(&child, 40, 120, option);
     receive_bursts(&child, 5);
     await(&child, "9", begins);
-    await(&child, "?", "scroll,");
+    await(&child, "?", "filter,");
     await(&child, "?", begins);
     quit(&child);
 }
