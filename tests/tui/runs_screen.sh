@@ -14,10 +14,6 @@ finish() {
     rm -rf "$here"
 }
 
-has_rows() { # directory
-    grep -qs '^load,[2-9]' "$1/curve.csv"
-}
-
 pid_of() { # directory
     python3 -c 'import json, sys
 print(json.load(open(sys.argv[1]))["pid"])' "$1/status.json"
@@ -41,13 +37,6 @@ rows() { # directory
 
 has_more_rows() { # directory, number
     [ "$(rows "$1")" -gt "$2" ]
-}
-
-# The full cell of the workbench: where the machine is slow it asks first.
-computes() { # directory
-    has 'takes long: r' && keys r
-    has 'A long run' && keys y
-    has_rows "$1"
 }
 
 open_terminal

@@ -25,6 +25,21 @@ for literal, word in re.findall(r'`([^`]*)`|(\S+)', rows[0][2].split('…')[part
 END
 }
 
+# What was left going ends with the test.
+stop_runs() {
+    for status in "$runs"/*/status.json; do
+        pid=$(python3 -c 'import json, sys
+print(json.load(open(sys.argv[1]))["pid"])' "$status" 2>/dev/null) &&
+            kill -KILL "$pid" 2>/dev/null
+    done
+}
+
+finish() {
+    term kill-server 2>/dev/null
+    stop_runs
+    rm -rf "$here"
+}
+
 begin_task() { # number, what it does
     task=$1
     what=$2
@@ -66,8 +81,24 @@ is_there() { # pattern of a path below the runs
     [ -n "$(find "$runs" -path "$1" -size +0)" ]
 }
 
-full_cell_runs() {
-    screen | head -n 1 | grep -q '▶ running' && is_pressed
+# The head of a PNG file, and its pixels per metre where it has them.
+is_8_cm_wide() {
+    python3 - "$(find "$runs" -name 'picture-1.png' -size +0)" <<'END'
+import struct, sys
+png = open(sys.argv[1], 'rb').read()
+wide, = struct.unpack('>I', png[16:20])
+at = png.index(b'pHYs') + 4
+per_metre, _, metre = struct.unpack('>IIB', png[at:at + 9])
+assert metre == 1 and abs(wide / per_metre - 0.08) < 1e-4, (wide, per_metre, metre)
+END
+}
+
+draws() {
+    ! "$greenbody" --version | grep -q 'no pictures'
+}
+
+has_more_rows() { # than before
+    [ "$(wc -l <"$runs/default-1/curve.csv")" -gt "$1" ]
 }
 
 cd "$here" || exit 1
@@ -127,16 +158,58 @@ press
 is "$what: a page" until_true is_there '*/report*.md'
 seen 'Result: report'
 end_task
+leaves "quits before the chart"
+
+start default particles.count=60 loading.until=20MPa loading.unload_from=
+shows "a smaller one, whose chart is quick" 'N 60 .*✓ done'
+begin_task 6 'accuracy against cost, and apply'
+press
+seen 'density error bound'
+press
+told "$what: the setting" 'setting of the chart: '
+end_task
+keys X
+told "$what: it is stopped" 'chart: \(cancelled\|stopped\)'
+is "$what: the setting has run" until_true has '✓ done'
+
+begin_task 7 'a picture 8 cm wide of forces'
+press
+if draws; then
+    seen 'Result: picture'
+    is "$what: it is so wide" is_8_cm_wide
+fi
+end_task
 leaves "quits"
 
+rm -rf "$runs"
 start "$long"
-is "a run is under way" until_true full_cell_runs
+is "a run is under way" until_true computes "$runs/default-1"
 begin_task 5 'what-if'
 press
 told "$what: it goes on from a point" 'changed after step'
 end_task
-
 leaves "quits, again"
+
+mkdir bin
+ln -s "$greenbody" bin/greenbody
+keys "PATH='$here/bin':\$PATH exec bash --norc --noprofile" Enter
+keys ". '$presets/../src/cli/completions/greenbody.bash'; PS1='bash''> '; clear" Enter
+until_true has 'bash>'
+rm -rf "$runs"
+start "$long"
+is "another run is under way" until_true computes "$runs/default-1"
+begin_task 9 'detach and find it again'
+press
+seen 'status=0'
+before=$(wc -l <"$runs/default-1/curve.csv")
+is "$what: it goes on" until_true has_more_rows "$before"
+press
+seen '1 run, 1 live'
+press
+seen '▶ running'
+end_task
+leaves "leaves the run"
+stop_runs
 
 echo "1..$tests"
 exit "$bad"

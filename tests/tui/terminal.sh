@@ -145,6 +145,17 @@ terminal_is_back() {
     until_true has 'isig.icanon.echo\.'
 }
 
+has_rows() { # directory
+    grep -qs '^load,[2-9]' "$1/curve.csv"
+}
+
+# The full cell of the workbench: where the machine is slow it asks first.
+computes() { # directory
+    has 'takes long: r' && keys r
+    has 'A long run' && keys y
+    has_rows "$1"
+}
+
 go_to() { # parameter
     keys / C-u "$1" Enter
     until_true has "^ $1: "

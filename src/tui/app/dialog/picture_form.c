@@ -70,10 +70,40 @@ void gb_picture_form_init(struct gb_picture_form *form, const char *path)
     gb_prompt_set(&form->file, path);
 }
 
+/* The line that a row edits; NULL: a row of choices. */
+static struct gb_prompt *line_of(struct gb_picture_form *form, int row)
+{
+    return row == GB_PICTURE_FORM_WIDTH  ? &form->width
+           : row == GB_PICTURE_FORM_FILE ? &form->file
+                                         : NULL;
+}
+
+static void draw_width(struct gb_prompt *width, const struct gb_paint *paint, int room)
+{
+    const char *text = gb_prompt_text(width);
+    const bool empty = *text == '\0';
+    gb_paint_cell(paint, GB_PICTURE_FORM_WIDTH, NAME_COLS + 2, room,
+                  empty ? GB_STYLE_DIM : GB_STYLE_PLAIN,
+                  empty ? "pixels of a screen; in print as 8cm, elsevier" : text);
+}
+
+/* The end of a long path says more than its beginning. */
+static void draw_file(struct gb_prompt *file, const struct gb_paint *paint, int room)
+{
+    char text[64];
+    const char *path = gb_prompt_text(file);
+    if (gb_paint_width(path) > room && strrchr(path, '/') != NULL) {
+        snprintf(text, sizeof text, "\u2026%s", strrchr(path, '/'));
+        path = text;
+    }
+    gb_paint_cell(paint, GB_PICTURE_FORM_FILE, NAME_COLS + 2, room, GB_STYLE_PLAIN, path);
+}
+
 void gb_picture_form_draw(const struct gb_picture_form *form,
                           const struct gb_paint *paint)
 {
     char text[64];
+    struct gb_picture_form shown = *form;
     const int room = paint->rect.cols - NAME_COLS - 1;
     for (int i = 0; i < GB_PICTURE_FORM_CHOICES; i++) {
         const bool here = i == form->row;
@@ -82,19 +112,13 @@ void gb_picture_form_draw(const struct gb_picture_form *form,
         gb_paint_cell(paint, i, NAME_COLS, room, here ? GB_STYLE_BOLD : GB_STYLE_PLAIN,
                       text);
     }
-    const int last = GB_PICTURE_FORM_FILE;
-    gb_paint_cell(paint, last, 1, NAME_COLS, GB_STYLE_DIM, "file");
-    if (form->row == last) {
-        gb_prompt_draw(&form->file, paint, last, NAME_COLS + 2, room - 2);
-    } else { /* the end of a long path says more than its beginning */
-        struct gb_prompt shown = form->file;
-        const char *path = gb_prompt_text(&shown);
-        const int wide = gb_paint_width(path);
-        if (wide > room - 2 && strrchr(path, '/') != NULL) {
-            snprintf(text, sizeof text, "\u2026%s", strrchr(path, '/'));
-            path = text;
-        }
-        gb_paint_cell(paint, last, NAME_COLS + 2, room - 2, GB_STYLE_PLAIN, path);
+    gb_paint_cell(paint, GB_PICTURE_FORM_WIDTH, 1, NAME_COLS, GB_STYLE_DIM, "width");
+    gb_paint_cell(paint, GB_PICTURE_FORM_FILE, 1, NAME_COLS, GB_STYLE_DIM, "file");
+    draw_width(&shown.width, paint, room - 2);
+    draw_file(&shown.file, paint, room - 2);
+    const struct gb_prompt *line = line_of(&shown, form->row);
+    if (line != NULL) {
+        gb_prompt_draw(line, paint, form->row, NAME_COLS + 2, room - 2);
     }
 }
 
@@ -111,11 +135,11 @@ static void change(struct gb_picture_form *form, int by)
 bool gb_picture_form_handle(struct gb_picture_form *form,
                             const struct gb_term_event *event, enum gb_action action)
 {
-    const bool typing = form->row == GB_PICTURE_FORM_FILE;
-    if (typing && gb_prompt_handle(&form->file, event)) {
+    struct gb_prompt *line = line_of(form, form->row);
+    if (line != NULL && gb_prompt_handle(line, event)) {
         return true;
     }
-    if (typing && event->kind == GB_TERM_TEXT) {
+    if (line != NULL && event->kind == GB_TERM_TEXT) {
         return false;
     }
     switch (action) {
@@ -127,7 +151,7 @@ bool gb_picture_form_handle(struct gb_picture_form *form,
         return true;
     case GB_ACTION_LEFT:
     case GB_ACTION_RIGHT:
-        if (!typing) {
+        if (line == NULL) {
             change(form, action == GB_ACTION_LEFT ? -1 : 1);
         }
         return true;
@@ -136,7 +160,7 @@ bool gb_picture_form_handle(struct gb_picture_form *form,
     }
 }
 
-void gb_picture_form_words(const struct gb_picture_form *form,
+void gb_picture_form_words(struct gb_picture_form *form,
                            const char *words[GB_PICTURE_FORM_WORDS + 1])
 {
     int count = 0;
@@ -144,6 +168,10 @@ void gb_picture_form_words(const struct gb_picture_form *form,
         if (chosen(form, i)->word != NULL) {
             words[count++] = chosen(form, i)->word;
         }
+    }
+    if (*gb_prompt_text(&form->width) != '\0') {
+        words[count++] = "--width";
+        words[count++] = gb_prompt_text(&form->width);
     }
     words[count] = NULL;
 }
