@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/derived.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
 
@@ -78,8 +79,10 @@ static void append_law(GString *text, const struct gb_params *params)
     if (gb_normal_law_of(params)->pair) {
         return;
     }
-    if (isfinite(params->bridge_length.value)) {
+    if (gb_derived_bridge_length_m(params) < gb_derived_reference_m(params)) {
         append_key(text, ", bridges from ", params, "contact", "bridge_length");
+    } else {
+        g_string_append(text, ", no bridges");
     }
     g_string_append(text, params->epsilon_j > 0.0 ? ", attraction" : "");
 }

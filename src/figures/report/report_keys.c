@@ -86,9 +86,7 @@ static void put_key(struct gb_report *report, struct gb_report_table *table,
         put_values(table, field, values);
         gb_report_table_put(table, "%s", field->meaning);
         gb_report_table_put(table, "%s", field->source);
-        if (field->type != GB_FIELD_CHOICE) { /* sources of a choice are those of all */
-            gb_report_references_cite(report, field->source);
-        }
+        gb_report_references_cite(report, field->source);
     }
     g_ptr_array_unref(values);
 }

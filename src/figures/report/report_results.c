@@ -10,7 +10,7 @@
 #include "many/die_summary.h"
 #include "measure/cell_scatter.h"
 #include "measure/fit/average.h"
-#include "run/moduli_states.h"
+#include "run/moduli/moduli_states.h"
 
 /* Pressures of the first page, MPa. */
 static const double levels[] = {10.0, 50.0, 100.0, 500.0};
@@ -26,6 +26,18 @@ struct result {
     int decimals;
 };
 
+/* Cells from which on the standard error of a mean needs no word on its own error. */
+enum { CELLS_ENOUGH = 5 };
+
+/* What the error of a mean is; that of few cells is uncertain by 1/sqrt(2 (n - 1)).  g_free. */
+static char *basis_of(size_t cells)
+{
+    return cells < CELLS_ENOUGH
+               ? g_strdup_printf("standard error of %zu cells, itself known to %.0f %%",
+                                 cells, 100.0 / sqrt(2.0 * ((double)cells - 1.0)))
+               : g_strdup("standard error of the cells");
+}
+
 /* basis: what the error is; NULL: the standard error of the cells, where it is known. */
 static void put(struct gb_report_table *table, const struct result *result,
                 const char *quantity, const char *basis)
@@ -36,11 +48,13 @@ static void put(struct gb_report_table *table, const struct result *result,
     gb_report_table_put_mean(table, result->mean, result->error, result->decimals);
     gb_report_table_put(table, "%s", result->unit);
     gb_report_table_put(table, "%zu", result->cells);
+    char *of_cells = basis_of(MAX(result->cells, 2));
     gb_report_table_put(table, "%s",
                         basis != NULL                ? basis
-                        : known && result->cells > 1 ? "standard error of the cells"
+                        : known && result->cells > 1 ? of_cells
                         : known                      ? "expected scatter of one cell"
                                                      : "");
+    g_free(of_cells);
 }
 
 static void put_densities(struct gb_report_table *table, const struct gb_runset *set,
@@ -130,8 +144,12 @@ static void put_modulus(struct gb_report_table *table, const struct gb_runset *s
     gb_average_values(values, result.cells, &result.mean, &result.error);
     if (result.cells > 0) {
         result.error = result.cells == 1 ? own : result.error;
+        char *basis = basis_of(MAX(result.cells, 2));
         put(table, &result, quantity,
-            result.error > 0.0 ? "standard error of the cells" : "");
+            result.cells > 1 && result.error > 0.0 ? basis
+            : result.error > 0.0                   ? "standard error of the cells"
+                                                   : "");
+        g_free(basis);
     }
     g_free(values);
 }
