@@ -25,6 +25,10 @@ static void test_cells(void)
         {"step 1.5e-12 s", 13, "step " ELLIPSIS},
         {"x -12.5 %", 6, "x -" ELLIPSIS},
         {"the rest of it", 9, "the rest" ELLIPSIS},
+        {"mean 2.9 standard errors", 11, "mean " ELLIPSIS}, /* no seconds */
+        {"mean 2.9 standard errors", 17, "mean " ELLIPSIS},
+        {"mean 2.9 standard errors", 18, "mean 2.9 standard" ELLIPSIS},
+        {"a radius of 12.5 nm at most", 19, "a radius of " ELLIPSIS},
         {"runs/default-12/curve.csv", 15, "runs/default-" ELLIPSIS},
         {"1.41421356237", 8, "1.41421" ELLIPSIS}, /* decimals of one number */
         {"1000000", 5, ELLIPSIS},

@@ -134,7 +134,7 @@ static void draw_item(const struct gb_paint *paint, int row, int col, int cols,
     char text[48];
     gb_panel_state_items_write(item, shown, text, sizeof text);
     const char *name = cols >= FULL_NAME_COLS ? item->name : item->brief;
-    gb_paint_text(paint, row, col, GB_STYLE_DIM, name);
+    gb_paint_cell(paint, row, col, cols - 1 - (int)strlen(text), GB_STYLE_DIM, name);
     gb_paint_text(paint, row, col + cols - (int)strlen(text), GB_STYLE_PLAIN, text);
 }
 
@@ -206,31 +206,57 @@ static void write_origin(const struct gb_session *session,
     snprintf(text, size, "%s", choice[fits]);
 }
 
-/* "rho(100 MPa) = 0.4062 +- 0.0064 (cell scatter)" in so many columns; "": not reached. */
-static void write_density(const struct gb_session *session,
-                          const struct gb_session_shown *shown, int cols, char *text,
-                          size_t size)
+enum { DENSITY_TEXT = 128 };
+
+/* "rho(100 MPa) = 0.4062 +- 0.0064" and "(cell scatter)", the latter for a row of `cols`
+ * columns behind the former, or of its own where it has no room there.  False: not
+ * reached. */
+static bool write_density(const struct gb_session *session,
+                          const struct gb_session_shown *shown, int cols,
+                          char head[DENSITY_TEXT], char origin[DENSITY_TEXT])
 {
-    char number[GB_NUMBER_ERROR_MAX], pressure[24], origin[32], head[128];
+    char number[GB_NUMBER_ERROR_MAX], pressure[24];
     struct gb_pressure_row row;
     const double at_pa = gb_pressure_rows_usual(session, 0.0);
-    text[0] = '\0';
     if (!find_row(session, shown, &row)) {
-        return;
+        return false;
     }
     const struct gb_pressure_value value = gb_pressure_rows_at(session, &row, at_pa);
-    if (isfinite(value.density)) {
-        gb_units_format_short(at_pa, GB_DIM_PRESSURE, 4, pressure, sizeof pressure);
-        if (isnan(value.error)) {
-            snprintf(number, sizeof number, "%.4f", value.density);
-        } else {
-            gb_number_error(value.density, value.error, 2, " +- ", number);
-        }
-        snprintf(head, sizeof head, "rho(%s) = %s", pressure, number);
-        write_origin(session, &row, value.error, cols - (int)strlen(head) - 1, origin,
-                     sizeof origin);
-        snprintf(text, size, "%s %s", head, origin);
+    if (!isfinite(value.density)) {
+        return false;
     }
+    gb_units_format_short(at_pa, GB_DIM_PRESSURE, 4, pressure, sizeof pressure);
+    if (isnan(value.error)) {
+        snprintf(number, sizeof number, "%.4f", value.density);
+    } else {
+        gb_number_error(value.density, value.error, 2, " +- ", number);
+    }
+    snprintf(head, DENSITY_TEXT, "rho(%s) = %s", pressure, number);
+    const int left = cols - (int)strlen(head) - 1;
+    write_origin(session, &row, value.error, left, origin, DENSITY_TEXT);
+    if ((int)strlen(origin) > left) {
+        write_origin(session, &row, value.error, cols, origin, DENSITY_TEXT);
+    }
+    return true;
+}
+
+/* In a row, or in two where there is room for them; returns how many. */
+static int draw_density(const struct gb_paint *paint, const struct gb_session *session,
+                        const struct gb_session_shown *shown, int row, bool roomy)
+{
+    char head[DENSITY_TEXT], origin[DENSITY_TEXT];
+    const int cols = paint->rect.cols - 2;
+    if (!write_density(session, shown, cols, head, origin)) {
+        return 0;
+    }
+    gb_paint_text(paint, row, 1, GB_STYLE_BOLD, head);
+    if ((int)(strlen(head) + strlen(origin)) < cols) {
+        gb_paint_text(paint, row, 2 + (int)strlen(head), GB_STYLE_BOLD, origin);
+    } else if (roomy) {
+        gb_paint_text(paint, row + 1, 1, GB_STYLE_PLAIN, origin);
+        return 2;
+    }
+    return 1;
 }
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
@@ -243,10 +269,8 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
     const bool roomy = paint->rect.rows >= choice.count + 6;
     draw_progress(paint, session, roomy);
     int row = roomy ? 4 : 2;
-    char density[192];
-    write_density(session, &shown, paint->rect.cols - 1, density, sizeof density);
-    if (density[0] != '\0' && paint->rect.rows >= DENSITY_FROM_ROWS) {
-        gb_paint_text(paint, row++, 1, GB_STYLE_BOLD, density);
+    if (paint->rect.rows >= DENSITY_FROM_ROWS) {
+        row += draw_density(paint, session, &shown, row, roomy);
     }
     draw_items(paint, row, paint->rect.rows - row, &shown, &choice);
     if (roomy && now->error.text[0] != '\0') {

@@ -42,10 +42,30 @@ static bool is_cut_decimal(const char *text, const char *end)
     return point != NULL && end - point > DECIMALS_MIN;
 }
 
+/* Whether a cut at this place takes the end of a word. */
+static bool is_in_word(const char *text, const char *end)
+{
+    return end > text && end[-1] != ' ' && g_ascii_isalpha(*end);
+}
+
+/* The end of a cut text without a part of the unit of a number: "2.9 s" says seconds where
+ * the text had standard errors. */
+static const char *leave_unit(const char *text, const char *end)
+{
+    const char *from = end;
+    if (!is_in_word(text, end)) {
+        return end;
+    }
+    while (from > text && from[-1] != ' ') {
+        from--;
+    }
+    return from - text >= 2 && g_ascii_isdigit(from[-2]) ? from - 1 : end;
+}
+
 /* The end of a cut text without the number there. */
 static const char *leave_number(const char *text, const char *end)
 {
-    const char *from = end;
+    const char *from = end = leave_unit(text, end);
     while (from > text && is_of_number(text, from - 1)) {
         from--;
     }

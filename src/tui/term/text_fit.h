@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 /* Texts cut to the room there is.  A cut text ends with an ellipsis and never with a part
- * of a number: "mu 0.15" gives "mu ..." and not "mu 0.1..."; only a text that is one number
+ * of a number: "mu 0.15" gives "mu ..." and not "mu 0.1..."; nor with a part of its unit.  Only a text that is one number
  * is cut among its decimals. */
 
 /* The text in at most `cols` cells; g_free. */
