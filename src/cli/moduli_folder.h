@@ -2,7 +2,7 @@
 #define GB_CLI_MODULI_FOLDER_H
 
 #include "io/preset.h"
-#include "run/moduli_states.h"
+#include "run/moduli/moduli_states.h"
 
 /* The folder of `greenbody moduli --out`: moduli.csv, and of a preset preset.ini. */
 struct gb_moduli_folder {

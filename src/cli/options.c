@@ -249,6 +249,28 @@ bool gb_options_scene(struct gb_preset **out, char **words, char **sets,
     return true;
 }
 
+bool gb_options_points(struct gb_keep_points *points, const char *at,
+                       struct gb_error *err)
+{
+    struct gb_error why;
+    char **parts = g_strsplit(at ? at : "", ";", -1);
+    for (int k = 0; parts[k] != NULL; k++) {
+        char *part = g_strstrip(parts[k]);
+        if (part[0] == 'p' && strchr(" =", part[1]) != NULL) {
+            char *value = strchr(part, '=');
+            memmove(part, value ? value + 1 : part, strlen(value ? value + 1 : part) + 1);
+        }
+    }
+    char *text = g_strjoinv(";", parts);
+    const bool good = gb_keep_points_parse(text, points, &why) && points->every == 0;
+    g_free(text);
+    g_strfreev(parts);
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "--at %.80s: must be up to %d pressures or densities "
+                                "separated by ';', as in \"p=100 MPa; density=0.5\"",
+                                at, GB_KEEP_POINTS_MAX);
+}
+
 const char *gb_options_directory(char **words, const char *command, struct gb_error *err)
 {
     if (g_strv_length(words) == 1) {

@@ -7,6 +7,7 @@
 
 #include "greenbody/status.h"
 #include "io/preset.h"
+#include "scene/field/keep_points.h"
 
 /* Help page of a command. */
 struct gb_options_page {
@@ -43,6 +44,11 @@ bool gb_options_preset(struct gb_preset **out, char **words, char **sets,
 /* The same, checked as a scene. */
 bool gb_options_scene(struct gb_preset **out, char **words, char **sets,
                       enum gb_options_preset need, struct gb_error *err);
+
+/* Points of --at (NULL: none), in the form of output.snapshots_at; "p=" before a pressure is
+ * accepted.  Errors: GB_ERR_INPUT. */
+bool gb_options_points(struct gb_keep_points *points, const char *at,
+                       struct gb_error *err);
 
 /* The only word of a command that takes one run directory; NULL after an error. */
 const char *gb_options_directory(char **words, const char *command, struct gb_error *err);

@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "solve/relax/relax_fire.h"
-#include "study/stability/stability.h"
+#include "study/stability/stability_run.h"
 #include "study/stability/stability_scene.h"
 
 static void test_sides(void)
@@ -98,6 +98,100 @@ static void test_runaway(void)
     gb_stability_scene_finish(&scene);
 }
 
+/* --- states of a run ---------------------------------------------------------------- */
+
+struct rows {
+    int count, in_use, skipped;
+    double p_pa, measured; /* of the last one */
+};
+
+/* The bound that is measured meets theory, whatever the method and the sizes. */
+static bool check_row(void *data, const struct gb_stability_row *row,
+                      struct gb_error *err)
+{
+    struct rows *rows = data;
+    (void)err;
+    g_test_message("%s at %g MPa: %g of %g", row->method, 1e-6 * row->p_pa, row->measured,
+                   row->theory);
+    g_assert_cmpfloat_with_epsilon(row->measured / row->theory, 1.0, 0.03);
+    g_assert_cmpfloat(row->used, >, 0.0);
+    g_assert_cmpfloat(row->density, >, 0.2);
+    rows->count++;
+    rows->in_use += row->in_use;
+    rows->p_pa = row->p_pa;
+    rows->measured = row->measured;
+    return true;
+}
+
+static void count_skipped(void *data, double p_pa, const char *why)
+{
+    ((struct rows *)data)->skipped++;
+    g_test_message("%g MPa: %s", 1e-6 * p_pa, why);
+}
+
+static struct rows run_scene(const char *const *assignments, const char *at)
+{
+    struct rows rows = {0};
+    struct gb_params params;
+    struct gb_keep_points points;
+    struct gb_error err = {0};
+    int missed = 0;
+    const struct gb_stability_sink sink = {check_row, count_skipped, &rows, NULL};
+    gb_params_init(&params);
+    for (int i = 0; assignments[i] != NULL; i++) {
+        if (!gb_params_assign(&params, assignments[i], &err)) {
+            g_error("%s", err.text);
+        }
+    }
+    g_assert_true(gb_keep_points_parse(at, &points, &err));
+    if (!gb_stability_run(&params, &points, &sink, &missed, &err)) {
+        g_error("%s", err.text);
+    }
+    g_assert_cmpint(missed, ==, 0);
+    return rows;
+}
+
+/* The relaxers where the run reaches a pressure, and at its end. */
+static void test_relaxers(void)
+{
+    const char *const scene[] = {"particles.count=60", "loading.until=30 MPa",
+                                 "loading.unload_from=", "numerics.relaxer=fire", NULL};
+    const struct rows rows = run_scene(scene, "5 MPa");
+    g_assert_cmpint(rows.count, ==, 6);
+    g_assert_cmpint(rows.in_use, ==, 2);
+    g_assert_cmpfloat(rows.p_pa, >=, 30e6);
+}
+
+/* Velocity Verlet with masses of unequal spheres, and of discs; damping shortens the step
+ * of the former. */
+static void test_masses(void)
+{
+    const char *scene[] = {"scene.kind=dynamic",
+                           "particles.count=200",
+                           "particles.distribution=lognormal",
+                           "particles.sigma=0.3",
+                           "loading.until=density = 0.4",
+                           "loading.relax=0 s",
+                           "loading.hold=0 s",
+                           "contact.viscosity=0 Pa s",
+                           NULL};
+    const struct rows free = run_scene(scene, "");
+    g_assert_cmpint(free.count, ==, 1);
+    scene[7] = "contact.viscosity=0.1 Pa s";
+    const struct rows damped = run_scene(scene, "");
+    g_assert_cmpfloat(damped.measured, <, free.measured);
+    const char *const discs[] = {"scene.kind=dynamic",
+                                 "scene.dimension=2",
+                                 "particles.count=60",
+                                 "structure.density=0.5",
+                                 "loading.geometry=isotropic",
+                                 "loading.until=density = 0.75",
+                                 "loading.relax=0 s",
+                                 "loading.hold=0 s",
+                                 NULL};
+    g_assert_cmpint(run_scene(discs, "").count, ==, 1);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -105,5 +199,7 @@ int main(int argc, char **argv)
     g_test_add_func("/stability/bounds", test_bounds);
     g_test_add_func("/stability/fastest", test_fastest);
     g_test_add_func("/stability/runaway", test_runaway);
+    g_test_add_func("/stability/relaxers", test_relaxers);
+    g_test_add_func("/stability/masses", test_masses);
     return g_test_run();
 }

@@ -64,7 +64,61 @@ shows "a chart that ends has a card" 'Result: accuracy against cost'
 shows "which says what is missing" 'no setting is known\|cheapest within the scatter'
 shows "and how much was measured" 'of [0-9]* settings measured, view 0'
 keys Escape
+keys Escape
+
+# --- stability of the same scene's methods
+keys T
+shows "the view behind the chart names the key" 'no stability yet: X measures the methods'
+keys X
+shows "X asks for states there" 'Stability of this scene.s methods'
+keys -l 'here'
+keys Enter
+shows "a state is a pressure or a density" 'here: accepted pressures or densities'
+keys C-u
+keys -l '10 MPa'
+keys Enter
+shows "it is measured in the background" 'stable step / step taken'
+shows "what it finds is a card" 'Result: stability of the methods'
+shows "with the method in use" 'in use: stable to [0-9.]* times its step'
+is "table and scene are kept" [ -s "$(find "$here/state" -name stability.csv)" ]
+keys Escape
+keys Right
+shows "the cursor reads the weakest state" 'in use; Enter applies'
+shows "with density and step" 'MPa, density 0\.[0-9]*: stable to [0-9.]*, takes'
+keys Home
+shows "and the others" '^ steepest at '
+keys Right
+shows "one after the other" '^ fire at '
+keys Enter
+told "Enter applies the method" 'stable method:'
+go_to relaxer
+is "to the parameters" until_true has 'relaxer  *fire'
+keys u
+shows "u takes it back" 'relaxer  *auto'
+keys T
 leaves "quits in the end"
+
+# --- a dynamic scene has a time step
+start p2-v1 particles.count=40 loading.until=density=0.7 loading.relax=0s loading.hold=0s
+shows "discs are compressed" '✓ done'
+keys T X Enter
+shows "velocity Verlet is measured" 'verlet, in use: stable'
+keys Escape Right
+shows "its cursor reads it" 'verlet at '
+keys Enter
+told "Enter applies half its longest step" 'stable method:'
+go_to time_step
+is "to the parameters again" until_true has 'time_step  *0\.[0-9]* T'
+leaves "quits for good"
+
+# --- a die has no cell
+start p3-cycle particles.count=60
+shows "a die opens" 'P3 die cycle'
+keys T
+shows "T says why there is none" 'stability needs a periodic cell'
+keys X
+shows "X says it, too" 'stability needs a periodic cell'
+leaves "leaves the die"
 
 echo "1..$tests"
 exit "$bad"

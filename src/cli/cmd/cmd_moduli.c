@@ -12,7 +12,7 @@
 #include "cli/signals.h"
 #include "figures/states.h"
 #include "io/preset.h"
-#include "run/moduli_states.h"
+#include "run/moduli/moduli_states.h"
 #include "scene/loading_kind.h"
 
 enum { REPLICAS_MAX = 1000 };
@@ -87,29 +87,6 @@ static void print_states(const struct request *request, const GArray *states)
         }
         gb_moduli_output_state(&g_array_index(states, struct gb_moduli_state, s));
     }
-}
-
-/* --at in the form of output.snapshots_at; "p=" before a pressure is accepted. */
-static bool parse_at(struct request *request, struct gb_error *err)
-{
-    struct gb_error why;
-    char **parts = g_strsplit(request->at ? request->at : "", ";", -1);
-    for (int k = 0; parts[k] != NULL; k++) {
-        char *part = g_strstrip(parts[k]);
-        if (part[0] == 'p' && strchr(" =", part[1]) != NULL) {
-            char *value = strchr(part, '=');
-            memmove(part, value ? value + 1 : part, strlen(value ? value + 1 : part) + 1);
-        }
-    }
-    char *text = g_strjoinv(";", parts);
-    const bool good =
-        gb_keep_points_parse(text, &request->points, &why) && request->points.every == 0;
-    g_free(text);
-    g_strfreev(parts);
-    return good || gb_error_set(err, GB_ERR_INPUT,
-                                "--at %.80s: must be up to %d pressures or densities "
-                                "separated by ';', as in \"p=100 MPa; density=0.5\"",
-                                request->at, GB_KEEP_POINTS_MAX);
 }
 
 static struct gb_moduli_table_sink sink_of(struct collector *collector)
@@ -207,7 +184,7 @@ static int perform(struct request *request, char **words)
     struct gb_error err = {0};
     struct collector collector = {.request = request};
     const bool directory = words[0] != NULL && g_file_test(words[0], G_FILE_TEST_IS_DIR);
-    bool done = parse_at(request, &err);
+    bool done = gb_options_points(&request->points, request->at, &err);
     if (done && directory && (words[1] != NULL || request->replicas != 1)) {
         done = gb_error_set(&err, GB_ERR_INPUT,
                             "moduli of a run directory takes no keys and no --replicas");

@@ -1,7 +1,7 @@
 #ifndef GB_CLI_MODULI_OUTPUT_H
 #define GB_CLI_MODULI_OUTPUT_H
 
-#include "run/moduli_states.h"
+#include "run/moduli/moduli_states.h"
 
 /* Moduli of a state on stdout, to be read: C in full, averages, wave speeds, elastic
  * range; with standard errors over replicas. */

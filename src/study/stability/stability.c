@@ -6,6 +6,8 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "law/critical_step.h"
+#include "scene/loading_kind.h"
+#include "solve/loading/dynamic_step.h"
 #include "solve/relax/relax_fire.h"
 #include "solve/verlet.h"
 #include "study/stability/stability_scene.h"
@@ -66,17 +68,6 @@ static double unrest(const struct gb_stability_scene *scene)
                  length_of(b.torque, 3 * b.count) / sqrt(scene->inertia));
 }
 
-/* Moves all particles along the fastest mode. */
-static void disturb(const struct gb_stability_scene *scene)
-{
-    const struct gb_bodies b = gb_world_bodies(scene->world);
-    const int64_t n = 3 * b.count;
-    for (int64_t i = 0; i < n; i++) {
-        b.position[i] += disturbance * scene->mode[i];
-        b.rotation[i] += disturbance * scene->mode[n + i] / sqrt(scene->inertia);
-    }
-}
-
 static bool run_verlet(const struct gb_stability_scene *scene, double step,
                        double *growth, struct gb_error *err)
 {
@@ -86,10 +77,11 @@ static bool run_verlet(const struct gb_stability_scene *scene, double step,
         return false;
     }
     const int64_t n = 3 * scene->model.count;
+    const double speed = disturbance * scene->frequency;
     for (int64_t i = 0; i < n; i++) {
-        const double speed = disturbance * scene->frequency;
-        verlet.velocity[i] = speed * scene->mode[i];
-        verlet.spin[i] = speed * scene->mode[n + i] / sqrt(scene->inertia);
+        verlet.velocity[i] = speed * scene->mode[i] / gb_stability_scene_root(scene, i);
+        verlet.spin[i] =
+            speed * scene->mode[n + i] / gb_stability_scene_root(scene, n + i);
     }
     const double first = gb_verlet_kinetic(&verlet);
     bool done = true;
@@ -108,7 +100,7 @@ static bool run_moves(const struct gb_stability_scene *scene,
                       double *growth, struct gb_error *err)
 {
     struct gb_relax *relax = data;
-    disturb(scene);
+    gb_stability_scene_move(scene, scene->mode, disturbance);
     bool done = gb_relax_evaluate(relax, scene->world, err);
     const double first = unrest(scene);
     for (int i = 0; i < STEPS && done && *growth < grown; i++) {
@@ -313,6 +305,59 @@ bool gb_stability_grows(int index, double share, bool *result, struct gb_error *
         open_scene(index, &scene, err) &&
         grows(method, &scene, share * method->bound(scene.frequency, method->damping),
               result, err);
+    gb_stability_scene_finish(&scene);
+    return done;
+}
+
+/* --- states of a run ------------------------------------------------------------------ */
+
+static const struct method *const of_time = &methods[0], *const of_rest = &methods[3];
+
+int gb_stability_methods(const struct gb_params *params, int *first)
+{
+    const bool follows_time = gb_loading_kind_of(params)->follows_time;
+    *first = (int)((follows_time ? of_time : of_rest) - methods);
+    return follows_time ? 1 : METHODS - *first;
+}
+
+/* The step of a dynamic run here, given or automatic. */
+static double used_in_run(const struct gb_stability_scene *scene)
+{
+    char text[160];
+    struct gb_dynamic motion = {
+        .model = &scene->model, .stage = GB_DYNAMIC_LOAD, .limit = INFINITY};
+    motion.scratch =
+        gb_alloc_array((size_t)scene->model.count, sizeof *motion.scratch, NULL);
+    const double step =
+        motion.scratch
+            ? gb_dynamic_step_allowed(&motion, scene->world, text, sizeof text)
+            : (double)NAN;
+    gb_alloc_free(motion.scratch);
+    return step;
+}
+
+bool gb_stability_measure_world(int index, const struct gb_world *world,
+                                struct gb_stability_row *row, struct gb_error *err)
+{
+    const struct method *method = &methods[index];
+    const bool in_time = method == of_time;
+    struct gb_stability_scene scene;
+    bool done = gb_stability_scene_copy(&scene, world, method->inertia, in_time, err);
+    if (done) {
+        const double damping =
+            in_time ? 0.5 * scene.model.dynamics.viscous * scene.frequency : 0.0;
+        *row = (struct gb_stability_row){
+            .method = method->name,
+            .damping = damping,
+            .theory = method->bound(scene.frequency, damping),
+            .exact = (double)NAN,
+        };
+        done = bisect(method, &scene, row->theory, &row->measured, err) &&
+               gb_stability_scene_reset(&scene, err);
+        row->used = !done     ? (double)NAN
+                    : in_time ? used_in_run(&scene)
+                              : method->used(&scene);
+    }
     gb_stability_scene_finish(&scene);
     return done;
 }

@@ -3,7 +3,8 @@
 
 #include <stdbool.h>
 
-#include "greenbody/status.h"
+#include "greenbody/params.h"
+#include "pack/cell/world.h"
 
 /* Where the integrator and the relaxers fail: a small disturbance of a packing at rest
  * grows when the step is longer than a bound.  Theory: from the highest frequency of the
@@ -17,6 +18,9 @@ struct gb_stability_row {
     double theory, measured; /* sqrt(m/(E d)); for steepest 1/(E d) */
     double exact;            /* the same in closed form; NaN where there is none */
     double used;             /* longest step that the method takes here by itself */
+    /* of a state of a run (stability_run.h), which has no scene and law: */
+    double density, p_pa;
+    bool in_use; /* the run moves by this method */
 };
 
 /* How many rows there are. */
@@ -27,5 +31,12 @@ bool gb_stability_measure(int index, struct gb_stability_row *row, struct gb_err
 
 /* Does a disturbance grow at a step of `share` times the theoretical bound? */
 bool gb_stability_grows(int index, double share, bool *grows, struct gb_error *err);
+
+/* Methods of a scene: *first and how many after it. */
+int gb_stability_methods(const struct gb_params *params, int *first);
+/* Such a method at a copy of a world right after an evaluation, brought to rest.  Errors:
+ * those of gb_probe_create. */
+bool gb_stability_measure_world(int method, const struct gb_world *world,
+                                struct gb_stability_row *row, struct gb_error *err);
 
 #endif

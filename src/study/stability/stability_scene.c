@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "pack/structure/chain_growth.h"
+#include "solve/moduli/probe.h"
 #include "solve/relax/relax.h"
 
 /* Disturbances in d: far below every overlap, far above rounding. */
@@ -88,6 +89,24 @@ bool gb_stability_scene_reset(struct gb_stability_scene *scene, struct gb_error 
            gb_world_evaluate(scene->world, err);
 }
 
+double gb_stability_scene_root(const struct gb_stability_scene *scene, int64_t k)
+{
+    const int64_t n = 3 * scene->model.count;
+    const double mass = scene->mass ? scene->mass[k % n / 3] : 1.0;
+    return sqrt(k < n ? mass : mass * scene->inertia);
+}
+
+void gb_stability_scene_move(const struct gb_stability_scene *scene, const double *mode,
+                             double by)
+{
+    const struct gb_bodies b = gb_world_bodies(scene->world);
+    const int64_t n = 3 * b.count;
+    for (int64_t i = 0; i < n; i++) {
+        b.position[i] += by * mode[i] / gb_stability_scene_root(scene, i);
+        b.rotation[i] += by * mode[n + i] / gb_stability_scene_root(scene, n + i);
+    }
+}
+
 /* Mass-weighted: lengths, and turns times the root of the inertia. */
 static double unit_length(double *vector, int64_t n)
 {
@@ -112,17 +131,16 @@ static bool multiply(struct gb_stability_scene *scene, const double *force_at_re
     }
     const struct gb_bodies b = gb_world_bodies(scene->world);
     const int64_t n = 3 * b.count;
-    const double root = sqrt(scene->inertia);
-    for (int64_t i = 0; i < n; i++) {
-        b.position[i] += small * mode[i];
-        b.rotation[i] += small * mode[n + i] / root;
-    }
+    gb_stability_scene_move(scene, mode, small);
     if (!gb_world_evaluate(scene->world, err)) {
         return false;
     }
     for (int64_t i = 0; i < n; i++) {
         image[i] = (force_at_rest[i] - b.force[i]) / small;
-        image[n + i] = (force_at_rest[n + i] - b.torque[i]) / small / root;
+        image[n + i] = (force_at_rest[n + i] - b.torque[i]) / small;
+    }
+    for (int64_t k = 0; k < 2 * n; k++) {
+        image[k] /= gb_stability_scene_root(scene, k);
     }
     return true;
 }
@@ -140,7 +158,8 @@ static bool find_mode(struct gb_stability_scene *scene, struct gb_error *err)
         memcpy(work + 2 * n, b.force, (size_t)n * sizeof *work);
         memcpy(work + 3 * n, b.torque, (size_t)n * sizeof *work);
         for (int64_t i = 0; i < 2 * n; i++) { /* no symmetry, the same every time */
-            scene->mode[i] = sin(1.0 + 12.9898 * (double)i);
+            const bool moves = scene->model.dimension == 3 || (i % 3 == 1) == (i >= n);
+            scene->mode[i] = moves ? sin(1.0 + 12.9898 * (double)i) : 0.0;
         }
         unit_length(scene->mode, 2 * n);
     }
@@ -204,11 +223,49 @@ bool gb_stability_scene_init(struct gb_stability_scene *scene,
     return done;
 }
 
+static bool assign_masses(struct gb_stability_scene *scene, struct gb_error *err)
+{
+    const double *diameter = gb_world_diameters(scene->world);
+    if (diameter == NULL) {
+        return true;
+    }
+    scene->mass = gb_alloc_array((size_t)scene->model.count, sizeof *scene->mass, err);
+    for (int64_t i = 0; scene->mass && i < scene->model.count; i++) {
+        scene->mass[i] = diameter[i] * diameter[i] * diameter[i];
+    }
+    return scene->mass != NULL;
+}
+
+bool gb_stability_scene_copy(struct gb_stability_scene *scene,
+                             const struct gb_world *world, double inertia, bool masses,
+                             struct gb_error *err)
+{
+    struct gb_probe *probe = NULL;
+    *scene = (struct gb_stability_scene){.model = *gb_world_model(world),
+                                         .inertia = inertia};
+    const double viscous = scene->model.dynamics.viscous;
+    scene->model.dynamics.viscous = 0.0;
+    scene->model.numerics.single = false;
+    bool done = gb_probe_create(&probe, world, NULL, NULL, err) &&
+                gb_world_create(&scene->world, &scene->model,
+                                gb_world_position(probe->world), err) &&
+                gb_world_copy_save(probe->world, &scene->rest, err) &&
+                (!masses || assign_masses(scene, err));
+    gb_probe_destroy(probe);
+    if (done) {
+        gb_world_set_step(scene->world, 1.0);
+        done = find_mode(scene, err);
+    }
+    scene->model.dynamics.viscous = viscous;
+    return done;
+}
+
 void gb_stability_scene_finish(struct gb_stability_scene *scene)
 {
     gb_world_destroy(scene->world);
     gb_world_copy_destroy(scene->rest);
     gb_alloc_free(scene->mode);
+    gb_alloc_free(scene->mass);
     *scene = (struct gb_stability_scene){0};
 }
 

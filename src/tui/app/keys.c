@@ -112,7 +112,7 @@ static const struct gb_key after_views[] = {
      GB_KEY_ANY_PANE, gb_job_commands_calibrate, GB_ACTION_NONE},
     {{'Y'}, "Y", NULL, "elastic moduli of the run's states; again: stop", GB_KEY_ANY_PANE,
      gb_job_commands_moduli, GB_ACTION_NONE},
-    {{'X'}, "X", "chart", "chart: accuracy against cost; again: stop",
+    {{'X'}, "X", "chart", "chart, in view T stability; again: stop",
      GB_KEY_ANY_PANE, gb_chart_commands_open, GB_ACTION_NONE},
     {{'W'}, "W", "result", "result of the last job, or of view E or S", GB_KEY_ANY_PANE,
      gb_result_commands_show, GB_ACTION_NONE},

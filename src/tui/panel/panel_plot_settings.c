@@ -5,48 +5,81 @@
 #include "tui/panel/panels.h"
 #include "tui/view/views.h"
 
-/* The cursor over the settings of a chart, along their cost. */
+/* The cursor over the settings of a chart, along their cost, and over the rows of the
+ * stability, along the run. */
 
 enum { PAGE_SETTINGS = 10, DESCRIPTION = 160 };
+
+/* What the cursor moves over. */
+struct rows {
+    size_t known;        /* how many */
+    const size_t *order; /* their rows; NULL: as they are */
+    size_t first;        /* row of the first movement */
+};
+
+static struct rows rows_of(const struct gb_panel_plot *panel,
+                           const struct gb_session *session)
+{
+    const struct gb_chart_csv *chart = session->chart;
+    const struct gb_stability_csv *stability = session->stability;
+    if (panel->view->need == GB_VIEW_NEEDS_STABILITY) {
+        return stability == NULL
+                   ? (struct rows){0}
+                   : (struct rows){stability->count, NULL,
+                                   gb_stability_csv_weakest(stability)};
+    }
+    return chart == NULL ? (struct rows){0}
+                         : (struct rows){chart->known, chart->by_cost, chart->chosen};
+}
+
+static size_t row_at(const struct rows *rows, long long rank)
+{
+    return rows->order != NULL ? rows->order[rank] : (size_t)rank;
+}
 
 bool gb_panel_plot_settings_at(const struct gb_panel_plot *panel,
                                const struct gb_session *session, size_t *row)
 {
-    const struct gb_chart_csv *chart = session->chart;
+    const struct rows rows = rows_of(panel, session);
     *row = panel->setting;
-    return panel->view->abscissa == GB_VIEW_SETTINGS && panel->setting_on &&
-           chart != NULL && panel->setting < chart->count &&
-           gb_chart_csv_is_known(chart, panel->setting);
+    for (size_t k = 0; k < rows.known && panel->setting_on == panel->view; k++) {
+        if (row_at(&rows, (long long)k) == *row) {
+            return panel->view->abscissa == GB_VIEW_SETTINGS;
+        }
+    }
+    return false;
 }
 
-/* Rank of a row by its cost; 0 for one that is not known. */
-static long long rank_of(const struct gb_chart_csv *chart, size_t row)
+/* Rank of a row; 0 for one that is not known. */
+static long long rank_of(const struct rows *rows, size_t row)
 {
-    for (size_t k = 0; k < chart->known; k++) {
-        if (chart->by_cost[k] == row) {
+    for (size_t k = 0; k < rows->known; k++) {
+        if (row_at(rows, (long long)k) == row) {
             return (long long)k;
         }
     }
     return 0;
 }
 
-/* The first movement shows the recommended setting, or the cheapest one. */
-static void move(struct gb_panel_plot *panel, const struct gb_chart_csv *chart,
-                 long long by)
+static void go_to(struct gb_panel_plot *panel, const struct rows *rows, long long rank)
 {
-    const long long last = (long long)chart->known - 1;
-    const long long from =
-        rank_of(chart, panel->setting_on ? panel->setting : chart->chosen);
-    const long long to = CLAMP(from + (panel->setting_on ? by : 0), 0, last);
-    panel->setting = chart->by_cost[to];
-    panel->setting_on = true;
+    panel->setting = row_at(rows, CLAMP(rank, 0, (long long)rows->known - 1));
+    panel->setting_on = panel->view;
+}
+
+/* The first movement shows the recommended setting, or the cheapest one; the weakest state
+ * of the method in use. */
+static void move(struct gb_panel_plot *panel, const struct rows *rows, long long by)
+{
+    const bool on = panel->setting_on == panel->view;
+    go_to(panel, rows, rank_of(rows, on ? panel->setting : rows->first) + (on ? by : 0));
 }
 
 void gb_panel_plot_settings_navigate(struct gb_panel_plot *panel,
                                      const struct gb_session *session,
                                      enum gb_action action)
 {
-    const struct gb_chart_csv *chart = session->chart;
+    const struct rows rows = rows_of(panel, session);
     static const int steps[] = {
         [GB_ACTION_LEFT] = -1,
         [GB_ACTION_UP] = -1,
@@ -56,16 +89,28 @@ void gb_panel_plot_settings_navigate(struct gb_panel_plot *panel,
         [GB_ACTION_PAGE_DOWN] = PAGE_SETTINGS,
     };
     if (action == GB_ACTION_BACK) {
-        panel->setting_on = false;
-    } else if (chart != NULL && chart->known > 0) {
+        panel->setting_on = NULL;
+    } else if (rows.known > 0) {
         if (action == GB_ACTION_HOME || action == GB_ACTION_END) {
-            panel->setting_on = true;
-            panel->setting =
-                chart->by_cost[action == GB_ACTION_HOME ? 0 : chart->known - 1];
+            go_to(panel, &rows,
+                  action == GB_ACTION_HOME ? 0 : (long long)rows.known - 1);
         } else if ((size_t)action < G_N_ELEMENTS(steps) && steps[action] != 0) {
-            move(panel, chart, steps[action]);
+            move(panel, &rows, steps[action]);
         }
     }
+}
+
+static void describe_stability(const struct gb_stability_csv *table, size_t i,
+                               struct gb_message *message)
+{
+    const struct gb_stability_csv_row *row = &table->row[i];
+    message->style = row->stable ? GB_STYLE_PLAIN : GB_STYLE_WARN;
+    snprintf(message->text, sizeof message->text,
+             "%s at %.3g MPa, density %.4f: stable to %.3g, takes %.3g, %.2f times: "
+             "%s%s; Enter applies",
+             row->method, table->p_mpa[i], row->density, row->measured, row->used,
+             table->margin[i], row->stable ? "stable" : "unstable",
+             row->in_use ? ", in use" : "");
 }
 
 void gb_panel_plot_settings_describe(const struct gb_panel_plot *panel,
@@ -80,6 +125,10 @@ void gb_panel_plot_settings_describe(const struct gb_panel_plot *panel,
         message->style = GB_STYLE_DIM;
         snprintf(message->text, sizeof message->text, "%s; v and V change the view",
                  panel->view->hint);
+        return;
+    }
+    if (panel->view->need == GB_VIEW_NEEDS_STABILITY) {
+        describe_stability(session->stability, row, message);
         return;
     }
     snprintf(message->text, sizeof message->text,

@@ -100,8 +100,8 @@ struct gb_panel_plot {
     bool cursor_on;
     size_t cursor;        /* point of the curve */
     double at_pa;         /* pressure that was typed; 0: none */
-    bool setting_on;
-    size_t setting; /* row of the chart under its cursor */
+    const struct gb_plot_view *setting_on; /* view whose cursor is on; NULL: none */
+    size_t setting; /* row of the chart, or of the stability, under it */
     double unit_pa;       /* of the pressure axis */
     struct gb_plot_ranges ranges; /* of axes, as typed */
     struct gb_rect field; /* the view's cells on the screen */

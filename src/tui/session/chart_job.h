@@ -6,22 +6,25 @@
 
 #include "tui/session/child_command.h"
 #include "tui/session/overlay/chart_csv.h"
+#include "tui/session/overlay/stability_csv.h"
 
-/* Accuracy against cost of the scene shown: `greenbody chart` as a child command, whose
- * chart.csv is read while it grows. */
+/* Accuracy against cost and stability of the scene shown: `greenbody chart` or `greenbody
+ * stability` as a child command, whose table is read while it grows. */
 struct gb_chart_job {
     char *directory;    /* NULL: none was started */
-    gint64 modified_ns; /* of the chart.csv that was read */
+    bool stability;     /* its table is stability.csv, else chart.csv */
+    gint64 modified_ns; /* of the table that was read */
 };
 
-/* Follows the chart in a directory from now on. */
-void gb_chart_job_follow(struct gb_chart_job *job, const char *directory);
+/* Follows the table in a directory from now on. */
+void gb_chart_job_follow(struct gb_chart_job *job, const char *directory, bool stability);
 void gb_chart_job_finish(struct gb_chart_job *job); /* zeroed is fine */
 
-/* Whether the child command is a chart. */
+/* Whether the child command is one of the two. */
 bool gb_chart_job_runs(const struct gb_child_command *child);
 
-/* Reads chart.csv again where it has changed; true if *chart is another one. */
-bool gb_chart_job_refresh(struct gb_chart_job *job, struct gb_chart_csv **chart);
+/* Reads the table again where it has changed; true if *chart or *stability is another one. */
+bool gb_chart_job_refresh(struct gb_chart_job *job, struct gb_chart_csv **chart,
+                          struct gb_stability_csv **stability);
 
 #endif

@@ -4,7 +4,7 @@
 #include <glib.h>
 #include <stdbool.h>
 
-#include "run/moduli_states.h"
+#include "run/moduli/moduli_states.h"
 #include "runner/runner.h"
 #include "tui/session/child_command.h"
 

@@ -35,6 +35,7 @@ void gb_session_finish(struct gb_session *session)
     gb_measured_destroy(session->measured);
     g_free(session->reading);
     gb_chart_csv_destroy(session->chart);
+    gb_stability_csv_destroy(session->stability);
     gb_chart_job_finish(&session->chart_job);
     gb_kept_runs_finish(&session->kept);
     gb_param_steps_finish(&session->steps);

@@ -65,6 +65,7 @@ struct gb_session {
     int measured_dimension; /* of the scene that was shown when they were loaded */
     char *reading; /* how its file was asked to be read, as --columns; owned */
     struct gb_chart_csv *chart;  /* chart of numerical settings; NULL: none */
+    struct gb_stability_csv *stability; /* of the methods; NULL: none */
     struct gb_chart_job chart_job;
     int runs;                    /* number of started runs */
     double particle_steps_per_s; /* speed of the last dynamic run; 0: none yet */

@@ -92,7 +92,8 @@ bool gb_session_refresh(struct gb_session *session)
         gb_session_note(session, "moduli: %s", session->moduli.failed.text);
         session->moduli.failed = (struct gb_error){0};
     }
-    const bool charted = gb_chart_job_refresh(&session->chart_job, &session->chart);
+    const bool charted = gb_chart_job_refresh(&session->chart_job, &session->chart,
+                                              &session->stability);
     if (succeeded) {
         gb_results_take(&session->results, session, session->child.name,
                         session->child.path);

@@ -108,11 +108,23 @@ static const struct gb_plot_view views[] = {
         .key = "0",
         .help = "accuracy against cost: X, or a chart.csv",
         .title = "Accuracy against cost",
-        .hint = "density error and CPU time of each setting; Left and Right move a "
-                "cursor, Enter applies",
+        .hint = "error and cost of each setting; Left and Right move a cursor, Enter "
+                "applies; T: stability of the methods",
         .need = GB_VIEW_NEEDS_CHART,
         .abscissa = GB_VIEW_SETTINGS,
         .draw = gb_view_chart_draw,
+    },
+    {
+        .key = "T",
+        .help = "stability of the methods of this scene: X",
+        .title = "Stability of the methods",
+        .hint = "longest stable step over the step taken, by pressure; below 1: unstable; "
+                "Left and Right, Enter applies",
+        .need = GB_VIEW_NEEDS_STABILITY,
+        .abscissa = GB_VIEW_SETTINGS,
+        .draw = gb_view_stability_draw,
+        .applies = has_cell,
+        .excluded = "stability needs a periodic cell",
     },
     {
         .key = "K",
@@ -260,6 +272,11 @@ const char *gb_views_missing(const struct gb_plot_view *view,
                      "progress among the events, X stops"
                    : "no chart yet: X measures this scene,\n"
                      "e loads a chart.csv of greenbody chart";
+    case GB_VIEW_NEEDS_STABILITY:
+        return session->stability != NULL ? NULL
+               : gb_chart_job_runs(&session->child)
+                   ? "measuring; progress among the events,\nX stops"
+                   : "no stability yet: X measures the methods\nof this scene";
     }
     return NULL;
 }

@@ -9,7 +9,8 @@ enum gb_view_need {
     GB_VIEW_NEEDS_POINTS,   /* two points of the curve */
     GB_VIEW_NEEDS_CONTACTS, /* a packing with contacts */
     GB_VIEW_NEEDS_SAMPLE,   /* positions of particles */
-    GB_VIEW_NEEDS_CHART     /* a chart.csv */
+    GB_VIEW_NEEDS_CHART,    /* a chart.csv */
+    GB_VIEW_NEEDS_STABILITY /* a stability.csv */
 };
 
 /* x axis of the views of curve points, on which the cursor moves; on one of its own the
@@ -19,7 +20,7 @@ enum gb_view_abscissa {
     GB_VIEW_DENSITY,
     GB_VIEW_ELAPSED,
     GB_VIEW_OWN,
-    GB_VIEW_SETTINGS /* settings of a chart in place of points of the curve */
+    GB_VIEW_SETTINGS /* rows of a chart or of the stability in place of points */
 };
 
 /* Longest texts that 80 columns show whole. */
@@ -122,5 +123,9 @@ void gb_view_moduli_draw(struct gb_panel_plot *panel, const struct gb_session *s
 
 /* Accuracy against cost of the numerical settings in the loaded chart. */
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+
+/* Longest stable step of each method over the step that it takes, against pressure. */
+void gb_view_stability_draw(struct gb_panel_plot *panel,
+                            const struct gb_session *session);
 
 #endif

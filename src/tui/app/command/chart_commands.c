@@ -20,7 +20,14 @@ void gb_chart_commands_open(struct gb_app *app, const struct gb_key *key)
     (void)key;
     if (gb_chart_job_runs(&session->child)) {
         gb_child_command_stop(&session->child);
-        gb_screen_commands_message(app, GB_STYLE_PLAIN, "the chart is stopped");
+        gb_screen_commands_message(app, GB_STYLE_PLAIN,
+                                   session->chart_job.stability
+                                       ? "the measurement is stopped"
+                                       : "the chart is stopped");
+        return;
+    }
+    if (app->screen.plot.view->need == GB_VIEW_NEEDS_STABILITY) {
+        gb_stability_commands_open(app);
         return;
     }
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_chart, default_answer);
@@ -75,9 +82,9 @@ static void start(struct gb_app *app, const struct answer *answer)
                            NULL};
     if (gb_job_commands_start(app, "chart", GB_CHILD_COMMAND_QUIET, words)) {
         g_clear_pointer(&session->chart, gb_chart_csv_destroy);
-        gb_chart_job_follow(&session->chart_job, session->child.path);
+        gb_chart_job_follow(&session->chart_job, session->child.path, false);
         app->screen.plot.view = gb_views_with(GB_VIEW_NEEDS_CHART);
-        app->screen.plot.setting_on = false;
+        app->screen.plot.setting_on = NULL;
         app->screen.focus = GB_PANE_PLOT;
         gb_screen_commands_message(app, GB_STYLE_PLAIN,
                                    "measuring the settings; X again stops");
@@ -103,6 +110,10 @@ void gb_chart_commands_apply(struct gb_screen *screen)
     char text[DESCRIPTION];
     size_t row = 0;
     if (!gb_panel_plot_settings_at(&screen->plot, session, &row)) {
+        return;
+    }
+    if (screen->plot.view->need == GB_VIEW_NEEDS_STABILITY) {
+        gb_stability_commands_apply(screen, row);
         return;
     }
     const struct gb_chart_setting *setting = &session->chart->setting[row];

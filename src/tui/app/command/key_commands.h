@@ -102,11 +102,17 @@ void gb_job_commands_accept_calibrate(struct gb_app *app);
 bool gb_job_commands_start(struct gb_app *app, const char *name,
                            enum gb_child_command_kind kind, const char **words);
 
-/* chart_commands.c: accuracy against cost. */
+/* chart_commands.c: accuracy against cost; in its view, stability. */
 void gb_chart_commands_open(struct gb_app *app, const struct gb_key *key);
 void gb_chart_commands_accept(struct gb_app *app);
 /* The setting under the cursor becomes that of the parameters. */
 void gb_chart_commands_apply(struct gb_screen *screen);
+
+/* stability_commands.c: stability of the methods of the scene. */
+void gb_stability_commands_open(struct gb_app *app);
+void gb_stability_commands_accept(struct gb_app *app);
+/* The method under the cursor, or its time step, becomes that of the parameters. */
+void gb_stability_commands_apply(struct gb_screen *screen, size_t row);
 
 /* result_commands.c: results of the jobs. */
 void gb_result_commands_show(struct gb_app *app, const struct gb_key *key);

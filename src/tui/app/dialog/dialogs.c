@@ -176,3 +176,11 @@ const struct gb_dialog_type gb_dialogs_chart = {
     .opened_by = gb_chart_commands_open,
     .accept = gb_chart_commands_accept,
 };
+
+const struct gb_dialog_type gb_dialogs_stability = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Stability of this scene's methods (Esc cancels)",
+    .label = "States, as 10 MPa; density=0.5 (empty: 1, 10, 100 MPa):",
+    .opened_by = gb_chart_commands_open,
+    .accept = gb_stability_commands_accept,
+};

@@ -9,6 +9,6 @@ extern const struct gb_dialog_type gb_dialogs_help, gb_dialogs_open, gb_dialogs_
     gb_dialogs_find, gb_dialogs_densities, gb_dialogs_curves, gb_dialogs_ranges,
     gb_dialogs_pressure, gb_dialogs_replicas, gb_dialogs_calibrate, gb_dialogs_picture,
     gb_dialogs_shell, gb_dialogs_legs, gb_dialogs_quit, gb_dialogs_cost,
-    gb_dialogs_results, gb_dialogs_pixels, gb_dialogs_chart;
+    gb_dialogs_results, gb_dialogs_pixels, gb_dialogs_chart, gb_dialogs_stability;
 
 #endif

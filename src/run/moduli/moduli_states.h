@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "run/moduli_table.h"
+#include "run/moduli/moduli_table.h"
 
 /* Moduli of the states of a run: means over replicas with standard errors, and the table
  * moduli.csv, which `greenbody plot --figure moduli` and the workbench read. */

@@ -1,4 +1,4 @@
-#include "run/moduli_table.h"
+#include "run/moduli/moduli_table.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,11 +7,9 @@
 #include "measure/elastic.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
+#include "run/keep_walk.h"
 #include "run/record/run_recorder.h"
 #include "scene/loading_kind.h"
-
-/* Force evaluations between two questions whether to stop. */
-enum { SLICE = 200 };
 
 static const char *const names[] = {"density",
                                     "p_MPa",
@@ -192,9 +190,10 @@ void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_modul
     fill_state(row, moduli, 1e-6 * params->young_pa, params->dimension);
 }
 
-static bool probe(const struct gb_experiment *experiment,
-                  const struct gb_moduli_table_sink *sink, struct gb_error *err)
+static bool probe(void *data, const struct gb_experiment *experiment,
+                  struct gb_error *err)
 {
+    const struct gb_moduli_table_sink *sink = data;
     const struct gb_moduli_options options = {
         .range = sink->range, .cancelled = sink->cancelled, .data = sink->cancel_data};
     struct gb_moduli moduli;
@@ -207,79 +206,14 @@ static bool probe(const struct gb_experiment *experiment,
     return sink->row(sink->data, &row, err);
 }
 
-/* Points that a run has reached so far. */
-struct progress {
-    const struct gb_keep_points *points;
-    double p_pa, density; /* highest while loading */
-    int reached;
-    bool probed; /* the state as it is */
-};
-
-/* Whether the last recorded point is the first beyond a point of the list. */
-static bool is_due(struct progress *progress, const struct gb_point *point)
-{
-    int due = 0;
-    if (point->branch != GB_BRANCH_LOAD) {
-        return false;
-    }
-    for (int k = 0; k < progress->points->count; k++) {
-        const struct gb_keep_point *at = &progress->points->point[k];
-        const double before = at->by_density ? progress->density : progress->p_pa;
-        const double now = at->by_density ? point->density : point->p_pa;
-        due += before < at->value && now >= at->value;
-    }
-    progress->p_pa = fmax(progress->p_pa, point->p_pa);
-    progress->density = fmax(progress->density, point->density);
-    progress->reached += due;
-    return due > 0;
-}
-
-static bool press(struct gb_experiment *experiment, struct progress *progress,
-                  const struct gb_moduli_table_sink *sink, struct gb_error *err)
-{
-    char text[GB_EVENT_TEXT];
-    for (;;) {
-        const enum gb_step_outcome outcome =
-            gb_experiment_advance(experiment, SLICE, err);
-        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
-        }
-        if (sink->cancelled && sink->cancelled(sink->cancel_data)) {
-            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
-        }
-        if (outcome == GB_STEP_POINT) {
-            progress->probed = is_due(progress, gb_experiment_point(experiment));
-            if (progress->probed && !probe(experiment, sink, err)) {
-                return false;
-            }
-        }
-        if (outcome == GB_STEP_STOPPED) {
-            struct gb_error ignored;
-            (void)(progress->probed || probe(experiment, sink, &ignored));
-            return false;
-        }
-        if (outcome == GB_STEP_DONE) {
-            return progress->probed || probe(experiment, sink, err);
-        }
-    }
-}
-
 bool gb_moduli_table_run(const struct gb_params *params,
                          const struct gb_keep_points *points,
                          const struct gb_moduli_table_sink *sink, int *missed,
                          struct gb_error *err)
 {
-    struct gb_experiment *experiment = NULL;
-    struct progress progress = {points, -INFINITY, -INFINITY, 0, false};
-    if (!gb_experiment_create(&experiment, params, sink->cancelled, sink->cancel_data,
-                              err)) {
-        return false;
-    }
-    const bool placed = params->structure != GB_STRUCTURE_GROWN && points->count == 0;
-    const bool done =
-        placed ? probe(experiment, sink, err) : press(experiment, &progress, sink, err);
-    *missed = points->count - progress.reached;
-    gb_experiment_destroy(experiment);
-    return done;
+    const struct gb_keep_walk walk = {points, probe, (void *)sink, sink->cancelled,
+                                      sink->cancel_data};
+    return gb_keep_walk_run(params, &walk, missed, err);
 }
 
 bool gb_moduli_table_file(const char *directory, const char *name,
@@ -293,7 +227,7 @@ bool gb_moduli_table_file(const char *directory, const char *name,
     if (done &&
         (!sink->wanted || sink->wanted(sink->data, gb_checkpoint_step(&record) - 1))) {
         done = gb_experiment_resume(&experiment, &params, &record, err) &&
-               probe(experiment, sink, err);
+               probe((void *)sink, experiment, err);
     }
     gb_experiment_destroy(experiment);
     gb_record_finish(&record);

@@ -1,4 +1,4 @@
-#include "run/moduli_states.h"
+#include "run/moduli/moduli_states.h"
 
 #include <math.h>
 
