@@ -89,6 +89,35 @@ static void copy_group(struct gb_params *to, const struct gb_params *from)
     }
 }
 
+/* Where a name stands as a word of a title, in either case; NULL: nowhere. */
+static const char *find_word(const char *title, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = title; *at != '\0' && length > 0; at++) {
+        const bool begins = at == title || !g_ascii_isalnum(at[-1]);
+        if (begins && g_ascii_strncasecmp(at, name, length) == 0 &&
+            !g_ascii_isalnum(at[length])) {
+            return at;
+        }
+    }
+    return NULL;
+}
+
+/* A title that names the material before names the new one. */
+static void rename_title(struct gb_params *params, const char *before)
+{
+    const char *word = find_word(params->title, before);
+    if (word != NULL) {
+        char *title = g_strdup_printf("%.*s%s%s", (int)(word - params->title),
+                                      params->title, params->material,
+                                      word + strlen(before));
+        if (strlen(title) < sizeof params->title) {
+            g_strlcpy(params->title, title, sizeof params->title);
+        }
+        g_free(title);
+    }
+}
+
 bool gb_material_apply(struct gb_params *params, const char *name_or_path,
                        struct gb_error *err)
 {
@@ -97,7 +126,10 @@ bool gb_material_apply(struct gb_params *params, const char *name_or_path,
     const bool good =
         path != NULL && gb_preset_load(&file, path, err) && check(file, err);
     if (good) {
+        char *before = g_strdup(params->material);
         copy_group(params, gb_preset_params(file));
+        rename_title(params, before);
+        g_free(before);
     }
     gb_preset_destroy(file);
     g_free(path);

@@ -12,9 +12,10 @@
 #define GB_MATERIAL_GROUP "material"
 
 /* Sets every key of [material]: those that the file leaves out get their default, so that
- * nothing of the material before is left.  name_or_path: a name, upper and lower case
- * alike, or a path of a file.  Errors: GB_ERR_INPUT with the materials there are, or the
- * line of the file; params is untouched then. */
+ * nothing of the material before is left; a title that names the one before names it.
+ * name_or_path: a name, upper and lower case alike, or a path of a file.  Errors:
+ * GB_ERR_INPUT with the materials there are, or the line of the file; params is untouched
+ * then. */
 bool gb_material_apply(struct gb_params *params, const char *name_or_path,
                        struct gb_error *err);
 

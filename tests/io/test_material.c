@@ -256,6 +256,35 @@ static void test_lists(void)
     g_strfreev(materials);
 }
 
+/* A title follows where it names the material. */
+static void test_title(void)
+{
+    static const char *const titles[][2] = {
+        {"alumina 10 nm, set II", "yttria 10 nm, set II"},
+        {"Alumina", "yttria"},
+        {"set I (alumina)", "set I (yttria)"},
+        {"aluminates", "aluminates"},
+        {"P3 die cycle", "P3 die cycle"},
+        {"", ""},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(titles); i++) {
+        struct gb_params params;
+        struct gb_error err = {0};
+        gb_params_init(&params);
+        g_strlcpy(params.title, titles[i][0], sizeof params.title);
+        g_assert_true(gb_material_apply(&params, "yttria", &err));
+        g_assert_cmpstr(params.title, ==, titles[i][1]);
+    }
+    struct gb_params params;
+    struct gb_error err = {0};
+    gb_params_init(&params);
+    memset(params.title, 'x', sizeof params.title - 1); /* no room for the longer name */
+    memcpy(params.title, "alumina ", 8);
+    params.title[sizeof params.title - 1] = '\0';
+    g_assert_true(gb_material_apply(&params, "microcrystalline-cellulose", &err));
+    g_assert_true(g_str_has_prefix(params.title, "alumina "));
+}
+
 int main(int argc, char **argv)
 {
     own = g_dir_make_tmp("greenbody-XXXXXX", NULL);
@@ -278,6 +307,7 @@ int main(int argc, char **argv)
     g_test_add_func("/material/keys", test_keys);
     g_test_add_func("/material/refused", test_refused);
     g_test_add_func("/material/own", test_own);
+    g_test_add_func("/material/title", test_title);
     const int status = g_test_run();
     g_strfreev(names);
     g_rmdir(own);

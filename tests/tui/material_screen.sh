@@ -21,6 +21,7 @@ shows "nothing has changed" 'young  *382 GPa'
 keys d y t Enter
 shows "Enter sets it" 'young  *179.8 GPa'
 shows "its name too" 'name  *yttria'
+shows "and the header" '^ greenbody  yttria 10 nm, set II'
 hides "and closes the list" 'Choose a material'
 told "an event says so" 'material yttria'
 keys c
