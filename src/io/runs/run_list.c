@@ -6,6 +6,7 @@
 
 #include "io/follow.h"
 #include "io/rundir.h"
+#include "io/runs/run_last_point.h"
 #include "io/status/status_json.h"
 
 enum { BLOCK = 512 }; /* unit of st_blocks */
@@ -88,19 +89,6 @@ static enum gb_run_list_engine engine_of(const char *directory,
     return gb_follow_engine_detached(engine) ? GB_RUN_LIST_DETACHED : GB_RUN_LIST_LIVE;
 }
 
-static void read_last_point(struct gb_run_list_item *item, const struct gb_params *params)
-{
-    struct gb_curve *curve = NULL;
-    if (gb_curve_create(&curve, NULL) &&
-        gb_follow_curve(item->directory, params, curve, NULL) &&
-        gb_curve_count(curve) > 0) {
-        const struct gb_point *last = gb_curve_at(curve, gb_curve_count(curve) - 1);
-        item->density = last->density;
-        item->pressure_pa = last->p_pa;
-    }
-    gb_curve_destroy(curve);
-}
-
 static void read_run(struct gb_run_list_item *item)
 {
     struct gb_params params;
@@ -122,7 +110,11 @@ static void read_run(struct gb_run_list_item *item)
                   : live && !busy ? "interrupted"
                                   : gb_status_json_word(snapshot.state);
     item->progress = snapshot.state == GB_RUN_DONE ? 1.0 : snapshot.progress;
-    read_last_point(item, &params);
+    double density = NAN, pressure_pa = NAN;
+    if (gb_run_last_point_read(item->directory, &density, &pressure_pa)) {
+        item->density = density;
+        item->pressure_pa = pressure_pa;
+    }
 }
 
 /* A folder under search. */
