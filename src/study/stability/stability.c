@@ -28,6 +28,7 @@ enum { SCENES = 4, LAWS = 3 };
 struct method {
     const char *name;
     double inertia;
+    int power; /* masses of unequal particles are their diameters to this power */
     double damping;
     double (*bound)(double frequency, double damping);
     /* Continues a disturbed scene; its largest disturbance over the first. */
@@ -210,12 +211,12 @@ static double used_predict(const struct gb_stability_scene *scene)
 static const double sphere = 0.1;
 
 static const struct method methods[] = {
-    {"verlet", sphere, 0.0, gb_critical_step, run_verlet, used_verlet},
-    {"verlet", sphere, 0.3, gb_critical_step, run_verlet, used_verlet},
-    {"verlet", sphere, 1.0, gb_critical_step, run_verlet, used_verlet},
-    {"steepest", GB_RELAX_INERTIA, 0.0, steepest_bound, run_steepest, used_steepest},
-    {"fire", GB_RELAX_INERTIA, 0.0, fire_bound, run_fire, used_fire},
-    {"predict", GB_RELAX_INERTIA, 0.0, fire_bound, run_predict, used_predict},
+    {"verlet", sphere, 3, 0.0, gb_critical_step, run_verlet, used_verlet},
+    {"verlet", sphere, 3, 0.3, gb_critical_step, run_verlet, used_verlet},
+    {"verlet", sphere, 3, 1.0, gb_critical_step, run_verlet, used_verlet},
+    {"steepest", GB_RELAX_INERTIA, 0, 0.0, steepest_bound, run_steepest, used_steepest},
+    {"fire", GB_RELAX_INERTIA, 1, 0.0, fire_bound, run_fire, used_fire},
+    {"predict", GB_RELAX_INERTIA, 1, 0.0, fire_bound, run_predict, used_predict},
 };
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
@@ -342,7 +343,7 @@ bool gb_stability_measure_world(int index, const struct gb_world *world,
     const struct method *method = &methods[index];
     const bool in_time = method == of_time;
     struct gb_stability_scene scene;
-    bool done = gb_stability_scene_copy(&scene, world, method->inertia, in_time, err);
+    bool done = gb_stability_scene_copy(&scene, world, method->inertia, method->power, err);
     if (done) {
         const double damping =
             in_time ? 0.5 * scene.model.dynamics.viscous * scene.frequency : 0.0;

@@ -223,7 +223,8 @@ bool gb_stability_scene_init(struct gb_stability_scene *scene,
     return done;
 }
 
-static bool assign_masses(struct gb_stability_scene *scene, struct gb_error *err)
+static bool assign_masses(struct gb_stability_scene *scene, int power,
+                          struct gb_error *err)
 {
     const double *diameter = gb_world_diameters(scene->world);
     if (diameter == NULL) {
@@ -231,13 +232,16 @@ static bool assign_masses(struct gb_stability_scene *scene, struct gb_error *err
     }
     scene->mass = gb_alloc_array((size_t)scene->model.count, sizeof *scene->mass, err);
     for (int64_t i = 0; scene->mass && i < scene->model.count; i++) {
-        scene->mass[i] = diameter[i] * diameter[i] * diameter[i];
+        scene->mass[i] = 1.0;
+        for (int k = 0; k < power; k++) {
+            scene->mass[i] *= diameter[i];
+        }
     }
     return scene->mass != NULL;
 }
 
 bool gb_stability_scene_copy(struct gb_stability_scene *scene,
-                             const struct gb_world *world, double inertia, bool masses,
+                             const struct gb_world *world, double inertia, int power,
                              struct gb_error *err)
 {
     struct gb_probe *probe = NULL;
@@ -250,7 +254,7 @@ bool gb_stability_scene_copy(struct gb_stability_scene *scene,
                 gb_world_create(&scene->world, &scene->model,
                                 gb_world_position(probe->world), err) &&
                 gb_world_copy_save(probe->world, &scene->rest, err) &&
-                (!masses || assign_masses(scene, err));
+                assign_masses(scene, power, err);
     gb_probe_destroy(probe);
     if (done) {
         gb_world_set_step(scene->world, 1.0);

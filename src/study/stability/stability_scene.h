@@ -30,10 +30,10 @@ bool gb_stability_scene_init(struct gb_stability_scene *scene,
                              enum gb_stability_packing packing, enum gb_stability_law law,
                              double inertia, struct gb_error *err);
 /* A copy of a world right after an evaluation, brought to rest, its mode without viscous
- * forces.  masses: of the sizes of the particles, else all are 1.  Errors: those of
+ * forces.  power: masses are the diameters to this power.  Errors: those of
  * gb_probe_create. */
 bool gb_stability_scene_copy(struct gb_stability_scene *scene,
-                             const struct gb_world *world, double inertia, bool masses,
+                             const struct gb_world *world, double inertia, int power,
                              struct gb_error *err);
 void gb_stability_scene_finish(struct gb_stability_scene *scene);
 
