@@ -131,6 +131,11 @@ hides "which closes" 'Result: replicas'
 shows "and the error of a mean" '(4 cells)'
 shows "at that pressure" 'rho(100 MPa) = 0\.[0-9]* +- 0\.00[0-9]* (4 cells)'
 shows "the legend says what the band is" 'mean of 4 cells, +- 2 errors'
+term resize-window -x 60 -y 20
+shows "60 x 20 has the mean, too" '^ rho(100 MPa) = 0\.[0-9]* +- 0\.00[0-9]* (4 cells)'
+term resize-window -x 120 -y 40
+shows "120 x 40 has its cells in a row of their own" '│ (4 cells)'
+at_80x24
 keys O
 shows "the list is there still" '│ \* a reference'
 leaves_list() { keys Escape; until_true has_not 'Curves (Enter'; }

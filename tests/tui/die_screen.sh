@@ -56,6 +56,7 @@ start p3-hertz-mu0 numerics.fidelity=fast particles.count=40
 shows 'a small die is pressed' '✓ done'
 shows 'with the quantities of a die' 'floor/p *[01]\.[0-9]'
 shows 'and the height' 'height *[0-9.]* um'
+shows 'no value runs into its name' 'rattl\.  *[0-9.]* %'
 leaves 'quits'
 
 # --- the die and its bed without colours and in ASCII

@@ -12,8 +12,8 @@
 /* Width of a column from which on names are not abbreviated; least width of the bar. */
 enum { FULL_NAME_COLS = 30, BAR_MIN = 4 };
 
-/* Height of a pane that has a line for the density at a pressure. */
-enum { DENSITY_FROM_ROWS = 5 };
+/* Height of a pane that has a line for the density at a pressure, for that of replicas. */
+enum { DENSITY_FROM_ROWS = 5, MEAN_FROM_ROWS = 4 };
 
 const char *gb_panel_state_word(enum gb_run_state state, const char *error,
                                 enum gb_style *style)
@@ -240,6 +240,15 @@ static bool write_density(const struct gb_session *session,
     return true;
 }
 
+static bool shows_density(const struct gb_paint *paint, const struct gb_session *session,
+                          const struct gb_session_shown *shown)
+{
+    struct gb_pressure_row row;
+    return paint->rect.rows >= DENSITY_FROM_ROWS ||
+           (paint->rect.rows >= MEAN_FROM_ROWS && find_row(session, shown, &row) &&
+            row.kind == GB_PRESSURE_ROW_REPLICAS);
+}
+
 /* In a row, or in two where there is room for them; returns how many. */
 static int draw_density(const struct gb_paint *paint, const struct gb_session *session,
                         const struct gb_session_shown *shown, int row, bool roomy)
@@ -269,7 +278,7 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
     const bool roomy = paint->rect.rows >= choice.count + 6;
     draw_progress(paint, session, roomy);
     int row = roomy ? 4 : 2;
-    if (paint->rect.rows >= DENSITY_FROM_ROWS) {
+    if (shows_density(paint, session, &shown)) {
         row += draw_density(paint, session, &shown, row, roomy);
     }
     draw_items(paint, row, paint->rect.rows - row, &shown, &choice);
