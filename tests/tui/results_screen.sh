@@ -114,7 +114,7 @@ keys Enter
 hides "and closes" 'Picture.*Esc'
 keys /
 keys -l 'contact.a'
-shows "a result does not interrupt what is typed" 'Name or part of it'
+shows "a result does not interrupt what is typed" 'Name, symbol or meaning'
 is_drawn() {
     [ "$(find "$here/state" -name 'picture-*.png' | wc -l)" -eq 2 ]
 }

@@ -84,7 +84,7 @@ static void draw_width(struct gb_prompt *width, const struct gb_paint *paint, in
     const bool empty = *text == '\0';
     gb_paint_cell(paint, GB_PICTURE_FORM_WIDTH, NAME_COLS + 2, room,
                   empty ? GB_STYLE_DIM : GB_STYLE_PLAIN,
-                  empty ? "pixels of a screen; in print as 8cm, elsevier" : text);
+                  empty ? "for a screen; 8cm, elsevier: in print" : text);
 }
 
 /* The end of a long path says more than its beginning. */
