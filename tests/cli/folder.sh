@@ -9,6 +9,8 @@ greenbody=$1
 presets=$2
 here=$(mktemp -d) || exit 1
 trap 'rm -rf "$here"' EXIT
+# By a limit of time: what it hung at.
+trap 'echo "# stopped after test $tests"; sed "s/^/# /" stderr stdout; exit 1' HUP INT TERM
 cd "$here" || exit 1
 export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
 tests=0

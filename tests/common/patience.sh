@@ -4,14 +4,21 @@
 # GB_TEST_PATIENCE multiplies it.
 patience_s=$((900 * ${GB_TEST_PATIENCE:-1}))
 
-# command...: until it succeeds; 1 when it never does.  After a hang nothing is waited for as
+# command...: until it succeeds; 1 when it never does.  What takes more than a minute is told, so
+# that a test that is stopped has said what it waited for.  After a hang nothing is waited for as
 # long again, so that a broken program does not keep its tests busy for hours.
 until_true() {
     until_true_end=$(($(date +%s) + patience_s))
+    until_true_told=$(($(date +%s) + 60))
     while ! "$@"; do
-        [ "$(date +%s)" -lt "$until_true_end" ] || {
+        until_true_now=$(date +%s)
+        [ "$until_true_now" -lt "$until_true_end" ] || {
             patience_s=20
             return 1
+        }
+        [ "$until_true_now" -lt "$until_true_told" ] || {
+            echo "# waiting for: $*" >&2
+            until_true_told=$((until_true_end + 1))
         }
         sleep 0.05
     done

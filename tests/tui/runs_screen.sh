@@ -3,7 +3,6 @@
 # Usage: runs_screen.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
-runs=$here/state/greenbody/runs
 cd "$here" || exit 1
 pids=
 finish() {

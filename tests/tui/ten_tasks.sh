@@ -5,7 +5,6 @@
 . "$(dirname "$0")/terminal.sh"
 
 manual=$3
-runs=$here/state/greenbody/runs
 
 # The keys of a row of the table between two ellipses, one a line, in hexadecimal or a name of tmux.
 keys_of() { # task, part from 1

@@ -19,12 +19,19 @@ export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
 export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
 unset NO_COLOR COLORTERM TMUX LINES COLUMNS
 
+# By a limit of time: what it hung at.
+stopped() {
+    echo "# stopped after test $tests; the screen:"
+    screen | sed 's/^/# /'
+    exit 1
+}
+
 finish() {
     term kill-server 2>/dev/null
     rm -rf "$here"
 }
 trap finish EXIT
-trap 'exit 1' HUP INT TERM
+trap stopped HUP INT TERM
 
 term() {
     tmux -u -L "$socket" -f /dev/null "$@"
@@ -154,6 +161,17 @@ computes() { # directory
     has 'takes long: r' && keys r
     has 'A long run' && keys y
     has_rows "$1"
+}
+
+# Of the workbench.
+runs=$here/state/greenbody/runs
+
+runs_number() { # number: as many run directories
+    [ "$(find "$runs" -maxdepth 1 -name 'default-*' | wc -l)" -eq "$1" ]
+}
+
+runs_fully() { # the full cell, not its quick one
+    screen | head -n 1 | grep -q '▶ running'
 }
 
 go_to() { # parameter

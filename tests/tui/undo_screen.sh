@@ -3,16 +3,6 @@
 # Usage: undo_screen.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
-runs=$here/state/greenbody/runs
-
-runs_number() { # number: as many run directories
-    [ "$(find "$runs" -maxdepth 1 -name 'default-*' | wc -l)" -eq "$1" ]
-}
-
-runs_fully() { # the full cell, not its quick one
-    screen | head -n 1 | grep -q '▶ running'
-}
-
 set_mu() { # value: its run comes to its end
     keys Enter C-u "$1" Enter
     shows "mu $1 is set" "^[* ]mu  *$1 "

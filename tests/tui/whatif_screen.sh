@@ -4,16 +4,6 @@
 # Usage: whatif_screen.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
-runs=$here/state/greenbody/runs
-
-runs_number() { # number: as many run directories
-    [ "$(find "$runs" -maxdepth 1 -name 'default-*' | wc -l)" -eq "$1" ]
-}
-
-runs_fully() { # the full cell, not its quick one
-    screen | head -n 1 | grep -q '▶ running'
-}
-
 open_terminal
 start "$long"
 is "a long run starts" until_true runs_fully

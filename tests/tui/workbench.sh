@@ -18,7 +18,6 @@ full_cell_follows() {
     until_true has 'A long run: start it?' && keys y && until_true full_cell_runs
 }
 
-runs=$here/state/greenbody/runs
 
 open_terminal
 
