@@ -98,6 +98,22 @@ shows "u takes it back" 'relaxer  *auto'
 keys T
 leaves "quits in the end"
 
+# --- far along the curve the longest step of a relaxer is beyond the bound
+start default particles.count=60 loading.until=1GPa loading.unload_from=
+shows "a dense packing" '✓ done'
+keys T X C-u
+keys -l '900 MPa'
+keys Enter
+shows "the card warns" 'in use: only stable to 0\.[0-9]* times its step'
+shows "and says what comes of it" 'it shortens its step there'
+keys Escape
+keys End
+shows "the cursor reads it" 'takes up to 1\.3, 0\.[0-9]*'
+shows "as unstable" ' unstable, in use'
+keys Enter
+shows "Enter takes no such method" 'predict is not stable here'
+leaves "quits the dense one"
+
 # --- a dynamic scene has a time step
 start p2-v1 particles.count=40 loading.until=density=0.7 loading.relax=0s loading.hold=0s
 shows "discs are compressed" '✓ done'

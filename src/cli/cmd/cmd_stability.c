@@ -143,12 +143,16 @@ static void conclude(const struct scene *scene, const struct gb_params *params)
     if (scene->method[0] == '\0') {
         return;
     }
+    const bool in_time = gb_loading_kind_of(params)->follows_time;
     gb_visible_print(stdout,
-                     "%s, the method in use, is %s: the longest stable step is at least "
-                     "%.2f times the one taken\n",
-                     scene->method, scene->least >= 1.0 ? "stable" : "unstable",
-                     scene->least);
-    if (gb_loading_kind_of(params)->follows_time) {
+                     "%s, the method in use: the longest stable step is at least %.2f "
+                     "times %s%s\n",
+                     scene->method, scene->least,
+                     in_time ? "the one taken" : "its longest step",
+                     scene->least >= 1.0 ? ""
+                     : in_time           ? ": unstable"
+                                         : ", which it shortens where it is unstable");
+    if (in_time) {
         gb_visible_print(stdout,
                          "stable with a margin of 2 in these states: "
                          "numerics.time_step=%.3g T\n",
@@ -219,8 +223,8 @@ int gb_cmd_stability(int argc, char **argv)
         "step and a stop at every move are (15) with k = step^2.  damping: xi.  closed\n"
         "form: the same without numerics.\n"
         "used: the step at which the guard of dynamic scenes intervenes, or the longest\n"
-        "step of the relaxer; of a scene the step that its run takes there.  margin:\n"
-        "measured / used."};
+        "step of the relaxer, which it shortens where the work turns negative; of a\n"
+        "dynamic scene the step that its run takes there.  margin: measured / used."};
     struct scene scene = {0};
     char **words = NULL, **sets = NULL;
     int status = 0;

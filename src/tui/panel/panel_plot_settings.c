@@ -106,10 +106,10 @@ static void describe_stability(const struct gb_stability_csv *table, size_t i,
     const struct gb_stability_csv_row *row = &table->row[i];
     message->style = row->stable ? GB_STYLE_PLAIN : GB_STYLE_WARN;
     snprintf(message->text, sizeof message->text,
-             "%s at %.3g MPa, density %.4f: stable to %.3g, takes %.3g, %.2f times: "
+             "%s at %.4g MPa, density %.4f: stable to %.3g, takes %s%.3g, %.2f times: "
              "%s%s; Enter applies",
-             row->method, table->p_mpa[i], row->density, row->measured, row->used,
-             table->margin[i], row->stable ? "stable" : "unstable",
+             row->method, table->p_mpa[i], row->density, row->measured,
+             table->in_time ? "" : "up to ", row->used, table->margin[i], row->stable ? "stable" : "unstable",
              row->in_use ? ", in use" : "");
 }
 

@@ -14,6 +14,9 @@ static const struct gb_plot_entry kinds[KINDS] = {
     [CHOSEN] = {GB_PLOT_INK_SERIES + 4, 3, ""}, /* its name */
 };
 
+/* Room below the points for the name of the axis, a factor. */
+static const double below = 1.5;
+
 static void extend(double ends[2], double value)
 {
     if (value > 0.0 && isfinite(value)) {
@@ -85,6 +88,7 @@ void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *se
         return;
     }
     plot->log_x = true;
+    y_ends[0] /= below;
     gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LOG, "CPU time per cell, s",
                  "density error bound");
     size_t row = 0;

@@ -15,6 +15,7 @@ enum {
     CURVES_ROWS = 14,
     CURVES_COLS = 80,
     FINDER_ROWS = 24,
+    BELOW_ROWS = 3, /* message and footer */
     FINDER_COLS = 100,
     PRESETS_ROWS = 34,
     PRESETS_COLS = 84,
@@ -200,10 +201,12 @@ const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_preset
 
 /* --- search of a parameter --------------------------------------------------------- */
 
+/* The message line stays: it tells of results that come while something is typed. */
 static void draw_finder(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
+    const int rows = MIN(FINDER_ROWS, screen->rect.rows - 2 * BELOW_ROWS);
     const struct gb_paint frame =
-        gb_dialog_box(screen, FINDER_ROWS, FINDER_COLS, dialog->type->title);
+        gb_dialog_box(screen, rows, FINDER_COLS, dialog->type->title);
     const struct gb_paint paint = gb_dialog_box_inside(&frame);
     gb_param_finder_draw(&dialog->finder, &paint);
 }

@@ -2,6 +2,7 @@
 
 #include <glib.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/table.h"
@@ -38,6 +39,7 @@ static bool fill(struct gb_stability_csv *out, const struct gb_table *table,
                                                     .stable = column[STABLE][i] > 0.0,
                                                     .in_use = column[IN_USE][i] > 0.0};
         g_strlcpy(out->row[i].method, gb_table_word(table, i), sizeof out->row[i].method);
+        out->in_time = strcmp(out->row[i].method, "verlet") == 0;
         out->p_mpa[i] = column[P][i];
         out->margin[i] = column[MARGIN][i];
     }

@@ -19,6 +19,8 @@ struct gb_stability_csv_row {
 
 struct gb_stability_csv {
     size_t count;
+    bool in_time; /* velocity Verlet with the step that it takes; else relaxers, which take
+                   * up to theirs and shorten it */
     struct gb_stability_csv_row *row; /* in the order of the run */
     double *p_mpa, *margin;           /* margin: measured over used */
 };

@@ -3,8 +3,6 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "tui/session/params_diff.h"
-
 static void clear_line(void *data)
 {
     g_free(((struct gb_result_line *)data)->text);
@@ -57,18 +55,6 @@ void gb_result_card_offer(struct gb_result_card *card, const struct gb_field *fi
     gb_params_format(params, field, text, sizeof text);
     const struct gb_result_value value = {field, g_strdup(text)};
     g_array_append_val(card->values, value);
-}
-
-void gb_result_card_offer_changes(struct gb_result_card *card, const struct gb_params *own,
-                                  const struct gb_params *changed)
-{
-    size_t count = 0;
-    const struct gb_field *field = gb_params_fields(&count);
-    for (size_t i = 0; i < count; i++) {
-        if (!gb_params_diff_same(own, changed, &field[i])) {
-            gb_result_card_offer(card, &field[i], changed);
-        }
-    }
 }
 
 char *gb_result_card_text(const struct gb_result_card *card)

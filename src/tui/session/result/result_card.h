@@ -55,10 +55,6 @@ void gb_result_card_add(struct gb_result_card *card, enum gb_result_role role,
 void gb_result_card_offer(struct gb_result_card *card, const struct gb_field *field,
                           const struct gb_params *params);
 
-/* All fields that differ become so. */
-void gb_result_card_offer_changes(struct gb_result_card *card, const struct gb_params *own,
-                                  const struct gb_params *changed);
-
 /* All lines and the path, as copied; g_free. */
 char *gb_result_card_text(const struct gb_result_card *card);
 

@@ -9,10 +9,16 @@ enum { DESCRIPTION = 160 };
 /* The fields that the setting changes. */
 static void offer_changes(struct gb_result_card *card, const struct gb_session *session)
 {
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
     const struct gb_params *own = gb_preset_params(session->preset);
     struct gb_params *changed = g_memdup2(own, sizeof *own);
     gb_chart_csv_apply(session->chart, session->chart->chosen, changed);
-    gb_result_card_offer_changes(card, own, changed);
+    for (size_t i = 0; i < count; i++) {
+        if (!gb_params_diff_same(own, changed, &field[i])) {
+            gb_result_card_offer(card, &field[i], changed);
+        }
+    }
     g_free(changed);
 }
 

@@ -15,8 +15,7 @@ bool gb_result_replicas_fill(struct gb_result_card *card,
 bool gb_result_moduli_fill(struct gb_result_card *card, const struct gb_session *session);
 /* result_chart.c: the recommended setting, its error and cost. */
 bool gb_result_chart_fill(struct gb_result_card *card, const struct gb_session *session);
-/* result_stability.c: the least margin of each method; another one where that in use is not
- * stable. */
+/* result_stability.c: the least margin of each method, with its pressure. */
 bool gb_result_stability_fill(struct gb_result_card *card,
                               const struct gb_session *session);
 /* result_files.c: size of the picture; pages and files of the report. */

@@ -11,7 +11,7 @@ static const struct gb_result_kind kinds[GB_RESULTS_KINDS] = {
     [GB_RESULTS_MODULI] = {"moduli", "elastic moduli", NULL, gb_result_moduli_fill},
     [GB_RESULTS_CHART] = {"chart", "accuracy against cost", "use the setting",
                           gb_result_chart_fill},
-    [GB_RESULTS_STABILITY] = {"stability", "stability of the methods", "use the value",
+    [GB_RESULTS_STABILITY] = {"stability", "stability of the methods", NULL,
                               gb_result_stability_fill},
     [GB_RESULTS_PICTURE] = {"picture", "picture", NULL, gb_result_files_picture},
     [GB_RESULTS_REPORT] = {"report", "report", NULL, gb_result_files_report},
