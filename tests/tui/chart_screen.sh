@@ -117,7 +117,7 @@ leaves "quits the dense one"
 # --- a dynamic scene has a time step
 start p2-v1 particles.count=40 loading.until=density=0.7 loading.relax=0s loading.hold=0s
 shows "discs are compressed" '✓ done'
-shows "no value of State runs into its name" 'E err\.  *[-0-9.e]* %'
+shows "no value of State runs into its name" 'E err  *[-0-9.e]* %'
 keys T X Enter
 shows "velocity Verlet is measured" 'verlet, in use: stable'
 keys Escape Right

@@ -261,7 +261,7 @@ static const struct gb_panel_state_item moving_items[] = {
     {"kin", "kinetic energy", kinetic},
     {"elast", "elastic energy", elastic},
     {"diss", "dissipated", dissipated},
-    {"E err.", "energy balance error", energy_error},
+    {"E err", "energy balance error", energy_error},
     {"coord.", "mean coordination number", contacts},
     {"bridged", "bridged contacts", bridged},
     {"rattl.", "rattlers", rattlers},
