@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <glib.h>
 #include <glib/gstdio.h>
 #include <stdatomic.h>
@@ -103,6 +104,34 @@ bool gb_file_replace(const char *path, const void *data, size_t size,
                  gb_file_reason(error));
     g_error_free(error);
     return false;
+}
+
+/* After this the new name survives a loss of power. */
+static bool sync_folder(const char *path)
+{
+    char *folder = g_path_get_dirname(path);
+    const int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool done = fd >= 0 && fsync(fd) == 0;
+    if (fd >= 0) {
+        (void)close(fd);
+    }
+    g_free(folder);
+    return done;
+}
+
+bool gb_file_replace_by(const char *path, const char *temporary, int fd, size_t size,
+                        struct gb_error *err)
+{
+    if (!gb_file_check_target(path, err)) {
+        return false;
+    }
+    if (!gb_file_may_write() || ftruncate(fd, (off_t)size) != 0 || fsync(fd) != 0 ||
+        rename(temporary, path) != 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(errno));
+    }
+    (void)sync_folder(path); /* some file systems sync no folders */
+    return true;
 }
 
 bool gb_file_is_same(const char *a, const char *b)

@@ -17,6 +17,11 @@
 bool gb_file_replace(const char *path, const void *data, size_t size,
                      struct gb_error *err);
 
+/* The same with content that is in a temporary file of the same folder already: its first
+ * `size` bytes.  The temporary file is left where that fails. */
+bool gb_file_replace_by(const char *path, const char *temporary, int fd, size_t size,
+                        struct gb_error *err);
+
 /* Why GLib could not write a file, without the name of its temporary one. */
 const char *gb_file_reason(const GError *error);
 

@@ -2,6 +2,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_version.h>
 #include <locale.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -173,9 +176,20 @@ static int dispatch(int argc, char **argv)
                            : open_scene(argc, argv);
 }
 
+/* Memory of large arrays goes back to the system when they are freed: the C library would
+ * come to keep those of up to 32 MB, of every thread. */
+static void return_freed_memory(void)
+{
+#ifdef __GLIBC__
+    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    (void)mallopt(M_TRIM_THRESHOLD, 4 << 20);
+#endif
+}
+
 int main(int argc, char **argv)
 {
     gb_program_name_process();
+    return_freed_memory();
     gb_hdf_skip_exit();
     /* Text in the user's locale, numbers always with a decimal point. */
     setlocale(LC_ALL, "");

@@ -28,6 +28,8 @@ enum gb_hdf_type {
  * gb_hdf_destroy may be called. */
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err);
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err);
+/* The same for gb_hdf_group_image; the name is that of errors. */
+bool gb_hdf_create_image(struct gb_hdf **out, const char *name, struct gb_error *err);
 /* An existing file, to be read. */
 bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err);
 void gb_hdf_destroy(struct gb_hdf *file); /* NULL is fine */

@@ -141,7 +141,8 @@ static void assert_equal(const struct gb_state *a, const struct gb_state *b)
 
 static void test_round_trip(void)
 {
-    const int64_t sizes[][2] = {{1, 0}, {2, 1}, {1000, 3000}, {40000, 5}};
+    const int64_t sizes[][2] = {
+        {1, 0}, {2, 1}, {1000, 3000}, {40000, 5}, {200000, 300000}};
     char *path = in_scratch("round.h5");
     for (size_t k = 0; k < G_N_ELEMENTS(sizes); k++) {
         struct gb_error err = {0};
@@ -446,25 +447,27 @@ static void test_bad_target(void)
 
 /* The disk is full after k bytes, for several k: the old state stays and nothing is left
  * lying about. */
-static void test_full_disk(void)
+static void full_disk(int64_t count, int64_t pairs, rlim_t step)
 {
     char *path = in_scratch("full.h5");
     struct rlimit whole;
+    struct stat info;
+    g_assert_true(write_state(path, count, pairs));
+    g_assert_cmpint(stat(path, &info), ==, 0);
     g_assert_true(write_state(path, 50, 60));
     const unsigned before = files_in_scratch();
-    struct stat info;
-    g_assert_cmpint(stat(path, &info), ==, 0);
     getrlimit(RLIMIT_FSIZE, &whole);
     signal(SIGXFSZ, SIG_IGN);
-    for (rlim_t k = 0; k < (rlim_t)info.st_size; k += 2003) {
+    for (rlim_t k = 0; k < (rlim_t)info.st_size; k += step) {
         const struct rlimit tight = {.rlim_cur = k, .rlim_max = whole.rlim_max};
         g_assert_cmpint(setrlimit(RLIMIT_FSIZE, &tight), ==, 0);
         struct gb_error err = {0};
-        struct gb_state *state = made_up(60, 70);
+        struct gb_state *state = made_up(count, pairs);
         const bool done = gb_state_write(state, NULL, path, &err);
         setrlimit(RLIMIT_FSIZE, &whole);
         g_assert_false(done);
         g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
+        g_assert_nonnull(strstr(err.text, "cannot be written: File too large"));
         gb_state_destroy(state);
         struct gb_state *back = NULL;
         g_assert_true(gb_state_read(&back, path, &err));
@@ -473,6 +476,17 @@ static void test_full_disk(void)
         g_assert_cmpuint(files_in_scratch(), ==, before);
     }
     g_free(path);
+}
+
+static void test_full_disk(void)
+{
+    full_disk(60, 70, 2003);
+}
+
+/* Of a state that is built in its temporary file. */
+static void test_full_disk_large(void)
+{
+    full_disk(200000, 300000, 3000017);
 }
 
 static void test_no_memory(void)
@@ -524,6 +538,7 @@ int main(int argc, char **argv)
     g_test_add_func("/run/state/not-a-state", test_not_a_state);
     g_test_add_func("/run/state/bad-target", test_bad_target);
     g_test_add_func("/run/state/full-disk", test_full_disk);
+    g_test_add_func("/run/state/full-disk-large", test_full_disk_large);
     g_test_add_func("/run/state/no-memory", test_no_memory);
     const int failed = g_test_run();
     remove_scratch();

@@ -219,7 +219,7 @@ static bool write_file(const struct gb_export_frame *frame, const char *data,
 {
     static const int64_t version[] = {1, 0};
     struct vtk vtk = {.err = err};
-    vtk.good = gb_hdf_create(&vtk.file, "vtkhdf", err) &&
+    vtk.good = gb_hdf_create_image(&vtk.file, "vtkhdf", err) &&
                gb_hdf_group_create(vtk.file, "/VTKHDF", err) &&
                gb_hdf_group_create(vtk.file, data, err) &&
                gb_hdf_group_create(vtk.file, "/VTKHDF/FieldData", err) &&

@@ -8,7 +8,7 @@
 
 /* How much computing may have to be repeated, s: so long that records cost a twentieth of
  * the time, within these limits. */
-static const double age_least_s = 0.1, age_most_s = 1.0, cost_share = 0.05;
+static const double age_least_s = 0.1, age_most_s = 10.0, cost_share = 0.05;
 
 void gb_held_record_init(struct gb_held_record *held, const struct gb_params *params,
                          struct gb_writer *writer)
@@ -22,13 +22,17 @@ bool gb_held_record_due(const struct gb_held_record *held,
     const double allowed_s =
         fmin(fmax(held->cost_s / cost_share, age_least_s), age_most_s);
     const double age_s = gb_clock_s() - held->taken_s; /* negative: the clock went back */
-    return !held->fresh || age_s < 0.0 || age_s >= allowed_s ||
-           gb_experiment_over(experiment);
+    return gb_experiment_over(experiment) ||
+           ((!held->fresh || age_s < 0.0 || age_s >= allowed_s) &&
+            !gb_writer_busy(held->writer));
 }
 
 bool gb_held_record_take(struct gb_held_record *held, struct gb_experiment *experiment,
                          struct gb_error *err)
 {
+    if (!gb_writer_wait(held->writer, err)) {
+        return false;
+    }
     const double from_s = gb_clock_s();
     const bool good = gb_checkpoint_take(experiment, gb_writer_record(held->writer), err);
     held->taken_s = gb_clock_s();
@@ -53,6 +57,9 @@ bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
                           struct gb_error *err)
 {
     struct gb_record *last = gb_writer_record(held->writer);
+    if (!gb_writer_wait(held->writer, err)) {
+        return false;
+    }
     gb_record_finish(last);
     *last = *record;
     *record = (struct gb_record){0};
@@ -64,14 +71,14 @@ bool gb_held_record_catch_up(struct gb_held_record *held, struct gb_error *err)
 {
     struct gb_record *record = gb_writer_record(held->writer);
     struct gb_error why = {0};
-    if (!held->fresh || held->missing < 0) {
+    if (held->missing < 0 || gb_writer_busy(held->writer)) {
         return true;
     }
     if (gb_repeat_points_record(record, held->params, held->missing, &why)) {
         return gb_held_record_complete(held, err);
     }
     held->missing = -1;
-    held->fresh = record->count > 0;
+    held->fresh = held->fresh && record->count > 0;
     return why.code != GB_ERR_MEMORY || gb_error_set(err, why.code, "%s", why.text);
 }
 

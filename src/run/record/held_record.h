@@ -5,9 +5,9 @@
 #include "run/record/run_journal.h"
 #include "run/record/writer.h"
 
-/* The record of the last point of a run, in the writer's memory.  Taking it costs as much
- * as some evaluations, so it is taken at some of the points only, and computed up to the
- * last one when it is needed. */
+/* The record of the last point of a run: the writer's.  Taking it costs as much as some
+ * evaluations, so it is taken at some of the points only, not while it is being written, and
+ * computed up to the last one when it is needed. */
 struct gb_held_record {
     const struct gb_params *params;
     struct gb_writer *writer;
@@ -22,11 +22,13 @@ void gb_held_record_init(struct gb_held_record *held, const struct gb_params *pa
                          struct gb_writer *writer);
 
 /* True where the last point needs a record of its own: there is none since the last
- * checkpoint, or it would soon be too old, or the run is over. */
+ * checkpoint, or it would soon be too old, or the run is over.  Not while a checkpoint is
+ * written: the points of that time are computed from it. */
 bool gb_held_record_due(const struct gb_held_record *held,
                         const struct gb_experiment *experiment);
 
-/* Right after a point: takes its record, without the journal; or goes without. */
+/* Right after a point: takes its record, without the journal, as soon as the last one is
+ * written; or goes without. */
 bool gb_held_record_take(struct gb_held_record *held, struct gb_experiment *experiment,
                          struct gb_error *err);
 void gb_held_record_skip(struct gb_held_record *held, const struct gb_point *point);
@@ -39,7 +41,7 @@ bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
                           struct gb_error *err);
 
 /* Computes the record up to the last point; the bits are those of a record taken there.
- * Where the run cannot be repeated, the record stays: a checkpoint some points before.
+ * Nothing is done while it is written.  Where the run cannot be repeated, the record stays: a checkpoint some points before.
  * Errors: GB_ERR_MEMORY. */
 bool gb_held_record_catch_up(struct gb_held_record *held, struct gb_error *err);
 

@@ -316,7 +316,8 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
                        &names);
     gb_kept_states_pass(&recorder->states, point);
     note_point(recorder, point->seconds);
-    if (names.count > 0 || checkpoint_due(recorder, point->seconds) ||
+    const bool free = !gb_writer_busy(recorder->writer);
+    if (names.count > 0 || (free && checkpoint_due(recorder, point->seconds)) ||
         gb_held_record_due(&recorder->held, experiment)) {
         return record_state(recorder, experiment, point, &names, err);
     }

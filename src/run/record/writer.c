@@ -25,8 +25,7 @@ struct gb_writer {
     struct gb_error err; /* the first failure; nothing is written after it */
     double seconds;      /* that the last state took */
 
-    struct gb_record record[2];
-    int own; /* index of the engine's record; the thread reads the other one while busy */
+    struct gb_record record; /* the thread reads it while busy; else the engine's */
 };
 
 static void write_record(const struct gb_writer *writer, const struct gb_record *record,
@@ -50,11 +49,10 @@ static void finish_write(struct gb_writer *writer, const struct gb_error *err)
 /* Both are called with the mutex held and release it while they write. */
 static void write_state(struct gb_writer *writer)
 {
-    const struct gb_record *record = &writer->record[1 - writer->own];
     struct gb_error err = {0};
     pthread_mutex_unlock(&writer->mutex);
     const double from = gb_clock_s();
-    write_record(writer, record, &err);
+    write_record(writer, &writer->record, &err);
     pthread_mutex_lock(&writer->mutex);
     writer->seconds = gb_clock_s() - from;
     writer->busy = false;
@@ -128,14 +126,21 @@ void gb_writer_destroy(struct gb_writer *writer)
     pthread_join(writer->thread, NULL);
     pthread_cond_destroy(&writer->change);
     pthread_mutex_destroy(&writer->mutex);
-    gb_record_finish(&writer->record[0]);
-    gb_record_finish(&writer->record[1]);
+    gb_record_finish(&writer->record);
     gb_alloc_free(writer);
 }
 
 struct gb_record *gb_writer_record(struct gb_writer *writer)
 {
-    return &writer->record[writer->own];
+    return &writer->record;
+}
+
+bool gb_writer_busy(struct gb_writer *writer)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const bool busy = writer->busy;
+    pthread_mutex_unlock(&writer->mutex);
+    return busy;
 }
 
 enum gb_writer_outcome gb_writer_send(struct gb_writer *writer, struct gb_error *err)
@@ -148,7 +153,6 @@ enum gb_writer_outcome gb_writer_send(struct gb_writer *writer, struct gb_error 
         *err = writer->err;
         outcome = GB_WRITER_FAILED;
     } else {
-        writer->own = 1 - writer->own;
         writer->busy = true;
         pthread_cond_broadcast(&writer->change);
         outcome = GB_WRITER_SENT;

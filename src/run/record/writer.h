@@ -8,7 +8,8 @@
 #include "scene/model.h"
 
 /* Writes states and status in a thread of its own: the engine fills a record, the thread
- * writes the file and waits for the disk.  The thread blocks all signals. */
+ * writes the file and waits for the disk.  There is one record, the largest thing that a
+ * run holds beside its packing.  The thread blocks all signals. */
 struct gb_writer;
 
 /* store, params and model must outlive the writer. */
@@ -18,16 +19,18 @@ bool gb_writer_create(struct gb_writer **out, const struct gb_store *store,
 /* Waits for files under way.  NULL is fine. */
 void gb_writer_destroy(struct gb_writer *writer);
 
-/* The record to be filled next; it belongs to the engine until gb_writer_send. */
+/* The record.  It belongs to the engine but for the time from gb_writer_send until it is
+ * written, and stays as it was sent. */
 struct gb_record *gb_writer_record(struct gb_writer *writer);
+bool gb_writer_busy(struct gb_writer *writer); /* it is being written */
 
 enum gb_writer_outcome {
     GB_WRITER_SENT,
-    GB_WRITER_BUSY,  /* the last record is still being written */
+    GB_WRITER_BUSY,  /* the record is still being written */
     GB_WRITER_FAILED /* writing has failed before: err */
 };
 
-/* Hands the record over; gb_writer_record returns another one from now on. */
+/* Hands the record over. */
 enum gb_writer_outcome gb_writer_send(struct gb_writer *writer, struct gb_error *err);
 
 /* Replaces status.json by text, which belongs to the writer from now on; it supersedes a
