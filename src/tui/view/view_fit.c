@@ -152,6 +152,13 @@ static void draw_line(struct view *view, const struct gb_session_shown *shown, i
                                           .marker = view->entry[k].marker});
 }
 
+/* The first entry of the list, which leaves the loading branch out where there is no
+ * room. */
+static int first_listed(const struct view *view)
+{
+    return view->entries > view->room;
+}
+
 static void draw_axes(struct view *view)
 {
     struct gb_panel_plot *panel = view->panel;
@@ -163,7 +170,7 @@ static void draw_axes(struct view *view)
     double x_ends[2] = {points->density[0], points->density[points->count - 1]};
     double y_ends[2] = {panel->log ? points->pressure[0] / view->unit_mpa : 0.0,
                               highest / view->unit_mpa};
-    panel->plot.foot = gb_plot_legend_foot(&panel->plot, view->entry, view->entries);
+    panel->plot.foot = view->entries - first_listed(view);
     gb_panel_plot_ranges_x(&panel->ranges, GB_PLOT_RANGE_DENSITY, 1.0, &panel->plot,
                            x_ends);
     gb_panel_plot_ranges_y(&panel->ranges, GB_PLOT_RANGE_PRESSURE, panel->unit_pa,
@@ -176,8 +183,7 @@ static void draw_axes(struct view *view)
 static void draw_list(struct view *view)
 {
     struct gb_plot *plot = &view->panel->plot;
-    const int first = view->entries > view->room; /* without the loading branch */
-    for (int k = first; k < view->entries; k++) {
+    for (int k = first_listed(view); k < view->entries; k++) {
         const struct gb_plot_entry *entry = &view->entry[k];
         const int row = plot->rows - view->entries + k;
         gb_plot_put(plot, row, 0, gb_plot_mark_char(plot, entry->marker), entry->ink);
