@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Refuses words that docs/glossary.md replaced by terms of the field.
+"""Refuses words that docs/glossary.md replaced by terms of the field, and phrases of messages that
+have a better wording.
 
 Usage: words.py SOURCE_DIR
 
@@ -26,6 +27,19 @@ TEXTS = """
     strays flock flocks amend amends amended amendment amendments sift sifted errand errands
     overheard swarm husk crew ledger album albums programme programmes solo hush boss dealt
 """.split()
+
+# Messages and screen texts that have a better wording, in adjacent string literals.
+PHRASES = re.compile(r"""
+    goes[ ]on\b|\bgo[ ]on\b|being[ ]made|takes[ ]it[ ]away|misfit[ ]\S+[ ]points|time[ ]of[ ]work
+    |(contacts|force)[ ]a[ ]particle|(sweeps|evaluations|steps)[ ]a[ ]second|100[ ]%[ ]in\b
+    |the[ ]parameter[ ](up|down)\b|does[ ]not[ ]fit[ ]the[ ]rest|accepted[ ][-\d%]\S*[ ]to\b
+    |accepted[ ]a[ ]value|is[ ]enough,|changes[ ]behind|nothing[ ]beats|error[ ]against[ ]cost
+    |over[ ]a[ ]bridge|without[ ]bridge\b|pressure[ ]of[ ]the[ ]contacts|force[ ]over[ ]the[ ]mean[ ]of
+    |lateral[ ]over|breaks[ ]a[ ]bridge|released[ ]at|share[ ]of[ ]the[ ](number|volume)\b(?![ ]that)
+    |change[ ]of[ ]height|energy[ ]error|floor[ ]bears|least[ ]gap|way[ ]of[ ]the[ ]punch
+    |keys[ ]fitted|where[ ]it[ ]comes[ ]from|\bwants[ ]--
+    """, re.X | re.I)
+LITERALS = re.compile(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*')
 
 # What strings may hold all the same: items of checkpoints, whose names are a contract.
 FILE_NAMES = re.compile(r'^(world|relax|bed|die|motion|load|programme|run)?/?'
@@ -74,6 +88,14 @@ def check_c(path, text):
             yield line_of(text, token.start()), word, value.split('\n')[0][:60]
 
 
+def check_phrases(path, text):
+    for literals in LITERALS.finditer(text):
+        shown = re.sub(r'"\s*"', '', literals.group())
+        phrase = PHRASES.search(shown)
+        if phrase:
+            yield line_of(text, literals.start()), phrase.group(), shown[:60]
+
+
 def check_page(path, text):
     for number, line in enumerate(text.split('\n'), 1):
         word = in_text(ITEMS_IN_PAGES.sub('', line))
@@ -102,7 +124,10 @@ def main():
             continue
         if path.name == 'glossary.md' or not path.exists():
             continue
-        for number, word, where in check(path, path.read_text(encoding='utf-8')):
+        text = path.read_text(encoding='utf-8')
+        shown = check_phrases(path, text) if path.suffix == '.c' and path.is_relative_to(
+            root / 'src') else ()
+        for number, word, where in [*check(path, text), *shown]:
             found += 1
             print(f'{path.relative_to(root)}:{number}: "{word}" in: {where}')
     print(f'words: {found} old words')

@@ -147,7 +147,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
     const struct gb_ensemble_callbacks callbacks = {gb_signals_cancelled, on_progress,
                                                     batch};
     if (jobs < 0 || jobs > JOBS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: accepted 1 to %d, 0 for all",
+        return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: must be between 1 and %d, or 0 for all",
                             jobs, JOBS_MAX);
     }
     const size_t workers = jobs > 0             ? (size_t)jobs

@@ -79,7 +79,7 @@ bool gb_compact_options_begin(struct gb_compact_options *options, char **words,
         return gb_error_set(err, GB_ERR_INPUT, "needs --out DIR, a directory of results");
     }
     if (options->jobs < 0 || options->jobs > JOBS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: accepted 1 to %d, 0 for all",
+        return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: must be between 1 and %d, or 0 for all",
                             options->jobs, JOBS_MAX);
     }
     if (!read_marks(options, marks, err) ||

@@ -69,8 +69,8 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
     int32_t layout = 0;
     if (!gb_hdf_list_has(file, group)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: keeps a packing but no checkpoint, so no run can go on "
-                            "from it (written by pack or by an older version)",
+                            "%s: keeps a packing but no checkpoint, so no run can "
+                            "continue from it (written by pack or by an older version)",
                             path);
     }
     if (!gb_hdf_get_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1, &layout, err)) {

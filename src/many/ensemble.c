@@ -21,7 +21,7 @@ bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replic
     *ensemble = (struct gb_ensemble){.points = points, .replicas = replicas};
     if (points == 0 || replicas == 0 || points > GB_ENSEMBLE_MOST / replicas) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%zu points with %zu replicas: accepted 1 to %d runs", points,
+                            "%zu points with %zu replicas: must be between 1 and %d runs", points,
                             replicas, GB_ENSEMBLE_MOST);
     }
     ensemble->run = gb_alloc_array(points * replicas, sizeof *ensemble->run, err);

@@ -207,7 +207,7 @@ const char *gb_die_scene_note(const struct gb_model *model, int index, char *buf
             note_cycle(model, buffer, size);
             return buffer;
         }
-        snprintf(buffer, size, "cycle ends at full pressure; die.cycle = full goes on");
+        snprintf(buffer, size, "cycle ends at full pressure; die.cycle = full continues");
         return buffer;
     case 5:
         snprintf(buffer, size, "threads: one; a die is swept by a single core");

@@ -56,7 +56,7 @@ is 'at that number the structure spans both axes' spans_both 599 0.5227261
 is 'one disc less does not' no_both 598 0.5218535
 is 'a table is no packing' refused --percolation 2 --out table
 is 'cells are counted' refused --percolation 0
-is 'and it says so' grep -q 'accepted 1 to' stderr
+is 'and it says so' grep -q 'must be between 1 and' stderr
 is 'one size is needed' refused particles.distribution=lognormal particles.count=2000 \
     --percolation 1
 is 'and that is said' grep -q 'sought for mono' stderr

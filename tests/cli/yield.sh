@@ -28,7 +28,7 @@ for command in yield strength; do
         --at 'every 20' --out out
     is "$command: --at of a length" refused '--at' "$greenbody" $command default \
         --at '5 nm' --out out
-    is "$command: --replicas" refused '--replicas 0: accepted 1 to 1000' \
+    is "$command: --replicas" refused '--replicas 0: must be between 1 and 1000' \
         "$greenbody" $command default --replicas 0 --out out
     is "$command: --jobs" refused '--jobs' "$greenbody" $command default --jobs -1 --out out
     is "$command: bad value" refused 'contact.mu' "$greenbody" $command default \
@@ -43,11 +43,11 @@ for command in yield strength; do
         "$greenbody" $command default --out single
     rm -r single
 done
-is 'yield: --inside 1' refused '--inside 1: accepted between 0 and 1' \
+is 'yield: --inside 1' refused '--inside 1: must be between 0 and 1' \
     "$greenbody" yield default --inside 1 --out out
-is 'yield: --directions' refused '--directions 10: accepted 8 to 72, a multiple of 4' \
+is 'yield: --directions' refused '--directions 10: must be between 8 and 72, a multiple of 4' \
     "$greenbody" yield default --directions 10 --out out
-is 'yield: --offset' refused '--offset 5: accepted 0.01 to 2 %' \
+is 'yield: --offset' refused '--offset 5: must be between 0.01 and 2 %' \
     "$greenbody" yield default --offset 5 --out out
 is 'yield: density 1' refused '--density' "$greenbody" yield default --density 1 --out out
 is 'refused commands leave nothing' [ ! -e out ]

@@ -144,7 +144,7 @@ static void test_refused(void)
         int dimension;
     } cases[] = {
         {"squeeze to 5 MPa", "leg 1 'squeeze to 5 MPa': 'squeeze': must be uniaxial", 3},
-        {"uniaxial", "ends too early: must go on with 'to'", 3},
+        {"uniaxial", "ends too early: must continue with 'to'", 3},
         {"uniaxial to 5", "", 3},
         {"uniaxial to 50 MPa; shear to 5 %", "leg 2", 3},
         {"shear z to 5 %", "'z': must be xy, xz or yz", 3},

@@ -36,7 +36,7 @@ opens attach "$here/run"
 shows 'attach shows it' 'running'
 keys q
 shows 'q asks' 'Quit?'
-shows 'the run of another process goes on' 'The attached run goes on in its process'
+shows 'the run of another process goes on' 'The attached run continues in its process'
 is 'and does not end' has_not 'The run ends'
 keys n
 hides 'n goes back' 'Quit?'
@@ -69,7 +69,7 @@ until_true no_children
 keys q
 shows 'q asks again' 'Quit?'
 shows 'this one ends' 'The run ends and is not stored'
-shows 'and the other one goes on' 'The attached run goes on'
+shows 'and the other one goes on' 'The attached run continues'
 keys y
 shows 'y quits' 'status=0'
 kill -0 "$other"

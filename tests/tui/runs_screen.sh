@@ -95,7 +95,7 @@ is "the others are detached" [ "$(grep -c 'detached [0-9]* %' "$here/list")" -eq
 keys q
 shows "q offers to leave it running" 'd leave it running'
 keys d
-shows "d tells where it goes on" 'goes on without a terminal; .greenbody attach'
+shows "d tells where it continues" 'continues without a terminal; .greenbody attach'
 shows "and leaves" 'status=0'
 is "the run is detached" until_true listed '^default-1  *detached [0-9]* %'
 pids="$pids $(pid_of "$runs/default-1")"

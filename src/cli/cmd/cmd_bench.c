@@ -70,8 +70,8 @@ static bool read_sizes(const char *text, struct gb_bench_cell *size, size_t *siz
     }
     g_strfreev(parts);
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "--sizes %s: accepted 2 to %d growing numbers of "
-                                "particles from 10 to 10000000, with commas between",
+                                "--sizes %s: must be between 2 and %d growing numbers "
+                                "of particles from 10 to 10000000, with commas between",
                                 text, SIZES_MAX);
 }
 
@@ -151,7 +151,7 @@ struct request {
 static bool check_request(const struct request *request, struct gb_error *err)
 {
     if (!(request->coordination > 0.0 && request->coordination < 12.0)) {
-        return gb_error_set(err, GB_ERR_INPUT, "--coordination %g: accepted 0 to 12",
+        return gb_error_set(err, GB_ERR_INPUT, "--coordination %g: must be between 0 and 12",
                             request->coordination);
     }
     const int tables =

@@ -63,7 +63,7 @@ static bool check_request(const struct request *request, struct gb_error *err)
                             "calibrate needs --data FILE.csv, --free KEYS and --out DIR");
     }
     return (request->replicas >= REPLICAS_MIN && request->replicas <= REPLICAS_MAX) ||
-           gb_error_set(err, GB_ERR_INPUT, "--replicas %d: accepted %d to %d",
+           gb_error_set(err, GB_ERR_INPUT, "--replicas %d: must be between %d and %d",
                         request->replicas, REPLICAS_MIN, REPLICAS_MAX);
 }
 

@@ -65,7 +65,7 @@ static bool check(struct chart *chart, struct gb_error *err)
                             "chart needs --out DIR, a directory for the chart");
     }
     if (chart->seeds < 2 || chart->seeds > SEEDS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--seeds %d: accepted 2 to %d",
+        return gb_error_set(err, GB_ERR_INPUT, "--seeds %d: must be between 2 and %d",
                             chart->seeds, SEEDS_MAX);
     }
     if (!(chart->standard_error > 0.0) || chart->allowed < 0.0) {

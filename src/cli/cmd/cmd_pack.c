@@ -52,7 +52,7 @@ static bool check_options(const struct pack *pack, struct gb_error *err)
     const bool searches = pack->percolation != NOT_GIVEN;
     if (searches &&
         (pack->percolation < 1 || pack->percolation > GB_PACK_PERCOLATION_CELLS)) {
-        return gb_error_set(err, GB_ERR_INPUT, "--percolation %d: accepted 1 to %d cells",
+        return gb_error_set(err, GB_ERR_INPUT, "--percolation %d: must be between 1 and %d cells",
                             pack->percolation, GB_PACK_PERCOLATION_CELLS);
     }
     if (searches && (pack->directory != NULL || pack->every != NULL)) {

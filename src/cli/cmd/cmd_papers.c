@@ -31,7 +31,7 @@ static bool check_range(const char *option, int value, int least, int most,
                         struct gb_error *err)
 {
     return value == 0 || (value >= least && value <= most) ||
-           gb_error_set(err, GB_ERR_INPUT, "%s %d: accepted %d to %d", option, value,
+           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option, value,
                         least, most);
 }
 

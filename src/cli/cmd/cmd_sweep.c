@@ -35,7 +35,7 @@ static bool check_request(const struct request *request, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT, "sweep needs --out DIR");
     }
     return (request->replicas >= 1 && request->replicas <= REPLICAS_MAX) ||
-           gb_error_set(err, GB_ERR_INPUT, "--replicas %d: accepted 1 to %d",
+           gb_error_set(err, GB_ERR_INPUT, "--replicas %d: must be between 1 and %d",
                         request->replicas, REPLICAS_MAX);
 }
 

@@ -64,12 +64,13 @@ bool gb_print_size_parse(const char *width, int per_inch, struct gb_print_size *
     if (!(inches >= 0.999 && inches <= 20.0)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "--width %.80s: accepted 2.54 to 50 cm, as in 8cm, 80mm, 3.3in, or a column "
-            "of a journal that plot --help lists, as elsevier, elsevier-1.5, elsevier-2",
+            "--width %.80s: must be between 2.54 and 50 cm, as in 8cm, 80mm, 3.3in, or a "
+            "column of a journal that plot --help lists, as elsevier, elsevier-1.5, "
+            "elsevier-2",
             width);
     }
     if (per_inch < 100 || per_inch > 1200) {
-        return gb_error_set(err, GB_ERR_INPUT, "--dpi %d: accepted 100 to 1200",
+        return gb_error_set(err, GB_ERR_INPUT, "--dpi %d: must be between 100 and 1200",
                             per_inch);
     }
     const double pixels = round(inches * per_inch);

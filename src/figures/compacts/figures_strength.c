@@ -31,7 +31,7 @@ static bool read_tables(struct tables *tables, const struct gb_figures_input *in
         const struct gb_figures_input one = {.words = word};
         if (tables->count == DIRECTORIES) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "strength: accepted 1 to %d directories", DIRECTORIES);
+                                "strength: must be between 1 and %d directories", DIRECTORIES);
         }
         struct gb_table **table = &tables->table[tables->count];
         if (!gb_compact_table_read(table, &one, "strength", "strength.csv", "test",

@@ -166,7 +166,7 @@ static bool parse_column(const char **at, enum gb_lab_role role,
     if (!quoted && strspn(column->name, "0123456789") == strlen(column->name)) {
         if (!g_ascii_string_to_unsigned(column->name, 10, 1, GB_TABLE_COLUMNS_MAX, &index,
                                         NULL)) {
-            return gb_error_set(err, GB_ERR_INPUT, "column %.20s: accepted 1 to %d",
+            return gb_error_set(err, GB_ERR_INPUT, "column %.20s: must be between 1 and %d",
                                 column->name, GB_TABLE_COLUMNS_MAX);
         }
         column->index = (int)index;

@@ -170,8 +170,8 @@ static bool refuse_value(const struct gb_table *table, size_t row,
 {
     char what[200];
     g_snprintf(what, sizeof what,
-               isfinite(quantity->most) ? "%s: accepted a value between %g and %g"
-                                        : "%s: accepted a value above %g",
+               isfinite(quantity->most) ? "%s must be between %g and %g"
+                                        : "%s must be above %g",
                quantity->name, quantity->least, quantity->most);
     return refuse_row(table, row, what, err);
 }
@@ -214,7 +214,7 @@ static bool take_quantity(struct gb_labdata *measured, const struct gb_table *ta
     }
     const double weight = cell(table, "weight", at);
     if (measured->weight != NULL && weight <= 0.0) {
-        return refuse_row(table, at, "weight: accepted a value above 0", err);
+        return refuse_row(table, at, "weight must be above 0", err);
     }
     measured->row[measured->count] = row;
     measured->value[measured->count] = value;
@@ -276,7 +276,7 @@ static bool alloc_rows(struct gb_labdata *measured, const struct gb_table *table
     const size_t quantities = count_quantities(table, &errors);
     const bool weights = gb_table_column(table, "weight", NULL) != NULL;
     if (rows == 0 || rows > GB_LABDATA_ROWS) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.200s: %zu rows; accepted 1 to %d",
+        return gb_error_set(err, GB_ERR_INPUT, "%.200s: %zu rows, which must be between 1 and %d",
                             gb_table_path(table), rows, GB_LABDATA_ROWS);
     }
     if (quantities == 0) {

@@ -47,7 +47,7 @@ static void tell(struct gb_live_export *live, const char *name, int which,
 {
     char *file = file_name(live, name, which);
     snprintf(live->told, sizeof live->told,
-             "output.export: %s: %s: left out, the run goes on", file, reason);
+             "output.export: %s: %s: left out, the run continues", file, reason);
     g_free(file);
 }
 
@@ -167,7 +167,7 @@ static void write_file(struct gb_live_export *live, const char *directory,
     char *path = g_build_filename(directory, "snapshots", file, NULL);
     if (!gb_file_replace(path, text->str, text->len, &err)) {
         snprintf(live->told, sizeof live->told,
-                 "output.export: %.400s: left out, the run goes on", err.text);
+                 "output.export: %.400s: left out, the run continues", err.text);
     }
     g_free(path);
     g_free(file);

@@ -128,7 +128,7 @@ static void offer_before(const char *directory, struct gb_error *err)
         gb_run_recorder_read(directory, "state-before.h5", &params, record, &ignored)) {
         (void)gb_error_set(
             err, why.code,
-            "%.300s; state-before.h5 is whole: resume --before goes on from "
+            "%.300s; state-before.h5 is whole: resume --before continues from "
             "step %lld and computes the points after it again",
             why.text, (long long)gb_checkpoint_step(record) - 1);
     }

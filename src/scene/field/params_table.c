@@ -309,7 +309,7 @@ static const struct gb_field rows[] = {
     {"loading", "on_collapse", GB_FIELD_CHOICE, AT(on_collapse), .choices = collapses,
      .fallback = "stop",
      .meaning = "where a leg asks for a stress that the packing cannot carry: the run "
-                "stops, or goes on by strain",
+                "stops, or continues by strain",
      .source = "docs/mechanics.md"},
     {"loading", "changes", GB_FIELD_TEXT, AT(changes), .fallback = "",
      .meaning = "changed parameters after recorded steps, as 120 contact.mu=0.3; "

@@ -8,7 +8,7 @@ bool gb_path_reading_expected(struct gb_path_reading *in, const char *what)
     const char *word = gb_path_words_peek(&in->words);
     return word[0] != '\0'
                ? gb_error_set(in->err, GB_ERR_INPUT, "'%.24s': must be %s", word, what)
-               : gb_error_set(in->err, GB_ERR_INPUT, "ends too early: must go on with %s",
+               : gb_error_set(in->err, GB_ERR_INPUT, "ends too early: must continue with %s",
                               what);
 }
 

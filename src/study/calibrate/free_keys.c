@@ -117,7 +117,7 @@ bool gb_free_keys_parse(struct gb_free_keys *keys, const char *text,
     bool good = parts[0] != NULL;
     keys->count = 0;
     if (!good || g_strv_length(parts) > GB_CALIBRATE_FREE) {
-        good = gb_error_set(err, GB_ERR_INPUT, "--free %.80s: accepted 1 to %d keys",
+        good = gb_error_set(err, GB_ERR_INPUT, "--free %.80s: must be between 1 and %d keys",
                             text, GB_CALIBRATE_FREE);
     }
     for (size_t i = 0; good && parts[i] != NULL; i++) {

@@ -22,7 +22,7 @@ bool gb_strength_options_check(const struct gb_strength_options *options,
                                struct gb_error *err)
 {
     if (options->replicas < 1 || options->replicas > GB_STRENGTH_REPLICAS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--replicas %d: accepted 1 to %d",
+        return gb_error_set(err, GB_ERR_INPUT, "--replicas %d: must be between 1 and %d",
                             options->replicas, GB_STRENGTH_REPLICAS_MAX);
     }
     return (options->marks.count > 0 && options->marks.every == 0) ||

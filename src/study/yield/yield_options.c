@@ -24,7 +24,7 @@ void gb_yield_options_init(struct gb_yield_options *options)
 static bool refuse(struct gb_error *err, const char *name, double value,
                    const char *accepted)
 {
-    return gb_error_set(err, GB_ERR_INPUT, "--%s %g: accepted %s", name, value, accepted);
+    return gb_error_set(err, GB_ERR_INPUT, "--%s %g: must be %s", name, value, accepted);
 }
 
 static bool check_marks(const struct gb_keep_points *marks, struct gb_error *err)
@@ -45,17 +45,18 @@ static bool check_marks(const struct gb_keep_points *marks, struct gb_error *err
 bool gb_yield_options_check(const struct gb_yield_options *options, struct gb_error *err)
 {
     if (options->replicas < 1 || options->replicas > GB_YIELD_REPLICAS_MAX) {
-        return refuse(err, "replicas", options->replicas, "1 to 1000");
+        return refuse(err, "replicas", options->replicas, "between 1 and 1000");
     }
     if (options->directions < 8 || options->directions > GB_YIELD_DIRECTIONS_MAX ||
         options->directions % 4 != 0) {
-        return refuse(err, "directions", options->directions, "8 to 72, a multiple of 4");
+        return refuse(err, "directions", options->directions,
+                      "between 8 and 72, a multiple of 4");
     }
     if (!(options->inside > 0.0 && options->inside < 1.0)) {
         return refuse(err, "inside", options->inside, "between 0 and 1");
     }
     if (!(options->offset >= 1e-4 && options->offset <= 0.02)) {
-        return refuse(err, "offset", 100.0 * options->offset, "0.01 to 2 %");
+        return refuse(err, "offset", 100.0 * options->offset, "between 0.01 and 2 %");
     }
     return check_marks(&options->marks, err);
 }

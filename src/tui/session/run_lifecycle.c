@@ -155,7 +155,7 @@ void gb_run_lifecycle_detach(const char *directory)
     if (started) {
         gb_visible_line(
             stderr,
-            "greenbody: the run goes on without a terminal; `greenbody attach "
+            "greenbody: the run continues without a terminal; `greenbody attach "
             "%s` shows it",
             directory);
     } else {
@@ -175,7 +175,7 @@ void gb_run_lifecycle_quit_text(const struct gb_session *session, char *text, si
     const bool child =
         session->child.pid != 0 && session->child.kind == GB_CHILD_COMMAND_LONG;
     g_snprintf(text, size, "%s%s%s%s", own,
-               other ? "The attached run goes on in its process. " : "",
+               other ? "The attached run continues in its process. " : "",
                child ? session->child.name : "",
                child ? ": continued by a process of its own." : "");
     g_strchomp(text);

@@ -74,7 +74,7 @@ void gb_crash_set_run(const char *directory)
         return;
     }
     snprintf(installed.resume, sizeof installed.resume,
-             "greenbody: go on from the last checkpoint with: greenbody resume '%s'\n",
+             "greenbody: continue from the last checkpoint with: greenbody resume '%s'\n",
              directory);
     snprintf(installed.state, sizeof installed.state, "%s/state.h5", directory);
 }

@@ -87,8 +87,8 @@ static const struct gb_plot_view views[] = {
         .key = "8",
         .help = "contact law: bridge strength",
         .title = "Bridge strength",
-        .hint = "mean normal stress that breaks a bridge partly, at h = 0 wholly; dim: "
-                "law of the run",
+        .hint = "bridge strength: normal stress of partial failure, at h = 0 of full failure; "
+                "dim: law of the run",
         .options = GB_VIEW_INSET,
         .draw = gb_view_law_strength,
         .applies = has_rod_law,

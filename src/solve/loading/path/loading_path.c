@@ -114,7 +114,7 @@ static enum gb_step_outcome miss(struct path_loading *run, struct gb_event_queue
         return GB_STEP_STOPPED;
     }
     gb_event_queue_add(events, text);
-    gb_event_queue_add(events, "the leg goes on by strain (loading.on_collapse)");
+    gb_event_queue_add(events, "the leg continues by strain (loading.on_collapse)");
     gb_leg_run_release(&run->legs);
     run->misses = 0;
     return halve(run);
