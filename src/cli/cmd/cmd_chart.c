@@ -235,6 +235,20 @@ static int perform(struct chart *chart, char **words, char **sets)
     return gb_options_fail(&err);
 }
 
+static void finish(struct chart *chart)
+{
+    gb_chart_log_close(&chart->log);
+    gb_chart_plan_finish(&chart->plan);
+    gb_preset_destroy(chart->preset);
+    g_free(chart->directory);
+    g_free(chart->write);
+    g_free(chart->pressures);
+    g_free(chart->budget_text);
+    g_free(chart->command);
+    g_strfreev(chart->vary);
+    g_strfreev(chart->reference);
+}
+
 int gb_cmd_chart(int argc, char **argv)
 {
     static const struct gb_options_page page = {
@@ -283,16 +297,7 @@ int gb_cmd_chart(int argc, char **argv)
         gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
         status = perform(&chart, words, sets);
     }
-    gb_chart_log_close(&chart.log);
-    gb_chart_plan_finish(&chart.plan);
-    gb_preset_destroy(chart.preset);
-    g_free(chart.directory);
-    g_free(chart.write);
-    g_free(chart.pressures);
-    g_free(chart.budget_text);
-    g_free(chart.command);
-    g_strfreev(chart.vary);
-    g_strfreev(chart.reference);
+    finish(&chart);
     g_strfreev(words);
     g_strfreev(sets);
     return status;

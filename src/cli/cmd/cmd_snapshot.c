@@ -31,10 +31,10 @@ struct request {
 
 static void free_request(struct request *request)
 {
-    char *const texts[] = {request->at,     request->view,  request->background,
-                           request->output, request->color, request->show,
-                           request->slice,  request->cut,   request->since,  request->range,
-                           request->colormap};
+    char *const texts[] = {request->at,     request->view,    request->background,
+                           request->output, request->color,   request->show,
+                           request->slice,  request->cut,     request->since,
+                           request->range,  request->colormap};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
@@ -238,72 +238,79 @@ static char *describe_sequence(void)
     return text;
 }
 
-int gb_cmd_snapshot(int argc, char **argv)
+static const struct gb_options_page page = {
+    .usage = "DIR... -o FILE.png",
+    .summary = "Picture of a packing: particles in their box, coloured by coordination\n"
+               "number or another measure, or the forces between them.  DIR is a run\n"
+               "directory or a state.h5; several are drawn one below the other.\n"
+               "The file contains the preset: greenbody run --from FILE.png repeats the "
+               "run.",
+};
+
+/* As gb_options_parse. */
+static bool parse_options(struct request *request, int argc, char **argv, char ***words,
+                          int *status)
 {
-    struct request request = {.fps = 8.0};
     char *colours = describe_colours();
     char *sequence = describe_sequence();
     char *colormaps = gb_picture_style_parse_colormaps();
     const GOptionEntry entries[] = {
-        {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the picture",
+        {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request->output, "the picture",
          "FILE.png"},
-        {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing picture",
+        {"force", 0, 0, G_OPTION_ARG_NONE, &request->force, "replace an existing picture",
          NULL},
-        {"view", 0, 0, G_OPTION_ARG_STRING, &request.view,
+        {"view", 0, 0, G_OPTION_ARG_STRING, &request->view,
          "corner, front, side, top or AZIMUTH,ELEVATION in degrees; ,flat behind it: "
          "no perspective",
          "VIEW"},
-        GB_PAGE_OPTIONS_ENTRIES(&request.page),
-        {"ground", 0, 0, G_OPTION_ARG_STRING, &request.background,
+        GB_PAGE_OPTIONS_ENTRIES(&request->page),
+        {"ground", 0, 0, G_OPTION_ARG_STRING, &request->background,
          "white, dark or transparent", "COLOUR"},
-        {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without text",
+        {"bare", 0, 0, G_OPTION_ARG_NONE, &request->bare, "the packing without text",
          NULL},
-        {"color", 0, 0, G_OPTION_ARG_STRING, &request.color, colours, "WHAT"},
-        {"show", 0, 0, G_OPTION_ARG_STRING, &request.show,
+        {"color", 0, 0, G_OPTION_ARG_STRING, &request->color, colours, "WHAT"},
+        {"show", 0, 0, G_OPTION_ARG_STRING, &request->show,
          "particles, forces (rods as thick as the force between two particles) or both",
          "WHAT"},
-        {"range", 0, 0, G_OPTION_ARG_STRING, &request.range,
+        {"range", 0, 0, G_OPTION_ARG_STRING, &request->range,
          "ends of the colours, as 0:200MPa (default: of the values, without outliers); "
          "0:50nN: force of the thickest rod",
          "LOW:HIGH"},
-        {"colormap", 0, 0, G_OPTION_ARG_STRING, &request.colormap, colormaps, "NAME"},
-        {"log", 0, 0, G_OPTION_ARG_NONE, &request.log, "logarithmic scale of colours",
+        {"colormap", 0, 0, G_OPTION_ARG_STRING, &request->colormap, colormaps, "NAME"},
+        {"log", 0, 0, G_OPTION_ARG_NONE, &request->log, "logarithmic scale of colours",
          NULL},
-        {"slice", 0, 0, G_OPTION_ARG_STRING, &request.slice,
+        {"slice", 0, 0, G_OPTION_ARG_STRING, &request->slice,
          "a slab at a fraction of an edge: y=0.5, or z=0.25:3d for 3 diameters (2)",
          "PLANE"},
-        {"cut", 0, 0, G_OPTION_ARG_STRING, &request.cut,
+        {"cut", 0, 0, G_OPTION_ARG_STRING, &request->cut,
          "cut away what is beyond y=0.5, or the corner nearest to the viewer", "PLANE"},
-        {"rose", 0, 0, G_OPTION_ARG_NONE, &request.rose,
+        {"rose", 0, 0, G_OPTION_ARG_NONE, &request->rose,
          "beside it the mean normal force by direction, as a surface", NULL},
-        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
+        {"at", 0, 0, G_OPTION_ARG_STRING, &request->at,
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (default: the last)",
          "POINT"},
-        {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence, sequence, NULL},
-        gb_options_quiet(&request.quiet),
-        {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request.fps, "frames a second (8)", "N"},
-        {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,
+        {"sequence", 0, 0, G_OPTION_ARG_NONE, &request->sequence, sequence, NULL},
+        gb_options_quiet(&request->quiet),
+        {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request->fps, "frames a second (8)", "N"},
+        {"since", 0, 0, G_OPTION_ARG_STRING, &request->since,
          "displacement from this state: a point of the run, or another directory",
          "POINT|DIR"},
         {0},
     };
-    static const struct gb_options_page page = {
-        .usage = "DIR... -o FILE.png",
-        .summary =
-            "Picture of a packing: particles in their box, coloured by coordination\n"
-            "number or another measure, or the forces between them.  DIR is a run\n"
-            "directory or a state.h5; several are drawn one below the other.\n"
-            "The file contains the preset: greenbody run --from FILE.png repeats the "
-            "run.",
-    };
-    char **words = NULL;
-    int status = 0;
-    struct gb_error err = {0};
-    const bool parsed = gb_options_parse(&page, entries, argc, argv, &words, &status);
+    const bool parsed = gb_options_parse(&page, entries, argc, argv, words, status);
     g_free(colormaps);
     g_free(sequence);
     g_free(colours);
-    if (!parsed) {
+    return parsed;
+}
+
+int gb_cmd_snapshot(int argc, char **argv)
+{
+    struct request request = {.fps = 8.0};
+    char **words = NULL;
+    int status = 0;
+    struct gb_error err = {0};
+    if (!parse_options(&request, argc, argv, &words, &status)) {
         free_request(&request);
         return status;
     }
