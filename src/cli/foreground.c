@@ -4,8 +4,8 @@
 
 #include <glib.h>
 
-#include "cli/output/json_output.h"
 #include "cli/options.h"
+#include "cli/output/json_output.h"
 #include "cli/signals.h"
 
 /* --- callbacks of the simulation --------------------------------------------------- */
@@ -99,13 +99,13 @@ int gb_foreground_fail(struct gb_foreground *run, const struct gb_error *err)
 static void summarise(struct gb_foreground *run, enum gb_run_outcome outcome)
 {
     const struct gb_run_loop *loop = &run->simulation->loop;
-    const struct gb_point *now = &loop->snapshot.now;
-    gb_progress_say(
-        &run->progress,
-        "%s after %.1f s: density %.4f, p %.4g MPa, %" G_GINT64_FORMAT " points in %s",
-        outcome == GB_RUN_OUTCOME_DONE ? "done" : "stopped", loop->snapshot.seconds,
-        now->density, now->p_pa / 1e6, gb_run_recorder_points(loop->recorder),
-        gb_store_directory(gb_run_recorder_store(loop->recorder)));
+    char where[GB_PROGRESS_POINT];
+    gb_progress_point(where, &loop->snapshot.now, ", ");
+    gb_progress_say(&run->progress,
+                    "%s after %.1f s: %s, %" G_GINT64_FORMAT " points in %s",
+                    outcome == GB_RUN_OUTCOME_DONE ? "done" : "stopped",
+                    loop->snapshot.seconds, where, gb_run_recorder_points(loop->recorder),
+                    gb_store_directory(gb_run_recorder_store(loop->recorder)));
 }
 
 int gb_foreground_run(struct gb_foreground *run)

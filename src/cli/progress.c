@@ -82,18 +82,27 @@ static void format_stage(const struct gb_snapshot *shot, char *line, size_t size
              shot->seconds_left >= 0.0 ? left : "estimating");
 }
 
+void gb_progress_point(char text[GB_PROGRESS_POINT], const struct gb_point *point,
+                       const char *separator)
+{
+    char density[32] = "";
+    if (isfinite(point->density)) {
+        snprintf(density, sizeof density, "density %.4f%s", point->density, separator);
+    }
+    snprintf(text, GB_PROGRESS_POINT, "%sp %.4g MPa", density, point->p_pa / 1e6);
+}
+
 static void format_line(const struct gb_snapshot *shot, char *line, size_t size)
 {
     char left[48];
-    char where[64] = "relaxing the start";
+    char where[GB_PROGRESS_POINT] = "relaxing the start";
     if (shot->stage.stage != GB_STAGE_NONE) {
         format_stage(shot, line, size);
         return;
     }
     format_left(shot->seconds_left, left, sizeof left);
     if (shot->now_valid) {
-        snprintf(where, sizeof where, "density %.4f  p %.4g MPa", shot->now.density,
-                 shot->now.p_pa / 1e6);
+        gb_progress_point(where, &shot->now, "  ");
     }
     snprintf(line, size, "%s  %.3gM particle-evaluations/s  %.0f %%  %s", where,
              shot->particle_evaluations_per_s / 1e6, 100.0 * shot->progress, left);

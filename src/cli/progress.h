@@ -19,6 +19,12 @@ void gb_progress_init(struct gb_progress *progress, bool quiet);
 void gb_progress_say(struct gb_progress *progress, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* "density 0.4213, p 12.3 MPa", with that separator; a compact outside its die has no
+ * density. */
+enum { GB_PROGRESS_POINT = 64 };
+void gb_progress_point(char text[GB_PROGRESS_POINT], const struct gb_point *point,
+                       const char *separator);
+
 /* Whether gb_progress_show is due.  Filling a snapshot costs an evaluation of the
  * forces. */
 bool gb_progress_due(const struct gb_progress *progress, double seconds);

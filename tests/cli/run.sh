@@ -121,6 +121,16 @@ is 'bench --json' json '[r["particles"] for r in o["rows"]][:2] == ["100", "200"
     "$greenbody" bench --sizes 100,200 --json
 rm -rf out
 
+# --- a compact beside its die, which has no density -----------------------------------------
+rm -rf out
+"$greenbody" run p3-cycle particles.count=20 'loading.time=2 us' --out out >stdout 2>stderr
+is 'a die cycle' [ $? -eq 0 ]
+is 'ends without a density' grep -q '^done after [0-9.]* s: p 0 MPa, ' stderr
+"$greenbody" attach out >stdout 2>stderr </dev/null
+is 'attach tells none either' grep -q 'out: p 0 MPa, step' stderr
+is 'nor is there a nan' sh -c '! grep -q nan stderr'
+rm -rf out
+
 # --- goals that are not reached ----------------------------------------------------------
 # name, text of the event, keys...
 misses() {

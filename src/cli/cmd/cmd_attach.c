@@ -60,9 +60,11 @@ static int print_progress(const char *directory, struct gb_error *err)
         gb_runner_destroy(runner);
         return gb_options_fail(err);
     }
-    gb_progress_say(&progress, "%s: density %.4f, p %.4g MPa, step %lld%s%s", directory,
-                    shot->now.density, shot->now.p_pa / 1e6, (long long)shot->now.step,
-                    shot->error.text[0] != '\0' ? ", " : "", shot->error.text);
+    char where[GB_PROGRESS_POINT];
+    gb_progress_point(where, &shot->now, ", ");
+    gb_progress_say(&progress, "%s: %s, step %lld%s%s", directory, where,
+                    (long long)shot->now.step, shot->error.text[0] != '\0' ? ", " : "",
+                    shot->error.text);
     gb_runner_destroy(runner);
     const int number = gb_signals_caught();
     return number != 0 ? 128 + number : 0;
