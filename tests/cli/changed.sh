@@ -92,6 +92,19 @@ pid=$!
 until_true [ -e out/state-before.h5 ]
 kill -TERM $pid
 wait $pid
+rm -rf lost
+cp -r out lost
+rm lost/state.h5
+"$greenbody" resume lost >stdout 2>stderr
+is 'where the last checkpoint is gone, the one before is named' [ $? -eq 2 ]
+is 'with what is to be done' grep -q 'has no state.h5; state-before.h5 is whole: resume --before' stderr
+truncate -s 3000 lost/state-before.h5
+"$greenbody" resume lost >stdout 2>stderr
+is 'where neither is whole, it is said what is lost' grep -q \
+    'has no state.h5; nor is there a whole state-before.h5: without these two files resume starts' stderr
+cp lost/state-before.h5 lost/state.h5
+"$greenbody" resume lost >stdout 2>stderr
+is 'nor if both are damaged' grep -q 'not a complete HDF5 file; nor is there a whole' stderr
 cp out/state.h5 out/state.h5.AB12cd # of a writer that was killed
 truncate -s 3000 out/state.h5
 "$greenbody" resume out >stdout 2>stderr

@@ -118,6 +118,15 @@ static bool has_checkpoint(const char *directory, const char *name)
     return exists;
 }
 
+static bool is_readable(struct gb_record *record, const char *directory, const char *name)
+{
+    struct gb_error ignored;
+    char *path = g_build_filename(directory, name, NULL);
+    const bool good = gb_hdf_record_read(record, path, &ignored);
+    g_free(path);
+    return good;
+}
+
 /* Where the last checkpoint cannot be read: says what the one before would do. */
 static void offer_before(const char *directory, struct gb_error *err)
 {
@@ -131,6 +140,11 @@ static void offer_before(const char *directory, struct gb_error *err)
             "%.300s; state-before.h5 is whole: resume --before continues from "
             "step %lld and computes the points after it again",
             why.text, (long long)gb_checkpoint_step(record) - 1);
+    } else if (record && !is_readable(record, directory, "state.h5")) {
+        (void)gb_error_set(err, why.code,
+                           "%.300s; nor is there a whole state-before.h5: without these "
+                           "two files resume starts the run again",
+                           why.text);
     }
     if (record) {
         gb_record_finish(record);
@@ -146,15 +160,17 @@ static bool load_checkpoint(struct gb_run_recorder *recorder,
                             struct gb_error *err)
 {
     static const char *const names[] = {"state.h5", "state-before.h5"};
+    const bool last = from == GB_RUN_RECORDER_LAST;
     *begun = has_checkpoint(directory, names[from]);
-    if (!*begun) {
-        return from == GB_RUN_RECORDER_LAST ||
-               gb_error_set(err, GB_ERR_INPUT, "%s: has no state-before.h5", directory);
-    }
-    if (load_experiment(recorder, experiment, directory, names[from], err)) {
+    if (!*begun && last && !has_checkpoint(directory, names[GB_RUN_RECORDER_BEFORE])) {
         return true;
     }
-    if (from == GB_RUN_RECORDER_LAST && err != NULL && err->code == GB_ERR_INPUT) {
+    if (!*begun) {
+        (void)gb_error_set(err, GB_ERR_INPUT, "%s: has no %s", directory, names[from]);
+    } else if (load_experiment(recorder, experiment, directory, names[from], err)) {
+        return true;
+    }
+    if (last && err != NULL && err->code == GB_ERR_INPUT) {
         offer_before(directory, err);
     }
     return false;
