@@ -43,6 +43,42 @@ sweep --replicas 9 --until-se 0.9@5MPa --jobs 1 --out one
 is 'replicas end when the error is small enough' \
     [ "$(find one -name curve.csv | wc -l)" -eq 8 ]
 
+# --- commas, semicolons and a short key -------------------------------------------------------
+two_values() { # key=values
+    "$greenbody" sweep p1-nobridge-38nm particles.count=50 structure.base=auto 'loading.until=0.1 MPa' \
+        loading.unload_from= --vary "$1" --out commas >stdout 2>stderr
+}
+is 'values between commas' two_values mu=0.1,0.2
+is 'are as many runs' [ "$(find commas/mu-0.[12]_seed-1 -name curve.csv | wc -l)" -eq 2 ]
+is 'the same between semicolons' two_values 'contact.mu=0.1; 0.2'
+is 'are the same runs' grep -q '^2 runs, 2 of them done before' stderr
+
+# --- words as values -------------------------------------------------------------------------
+"$greenbody" sweep p1-nobridge-38nm particles.count=50 structure.base=auto 'loading.until=0.1 MPa' \
+    loading.unload_from= --vary 'material.name=a/b;ab;a b' --out words >stdout 2>stderr
+is 'words that differ in signs only' [ $? -eq 0 ]
+is 'have directories of their own' [ "$(find words -name curve.csv | wc -l)" -eq 3 ]
+is 'with those words' [ "$(cat words/*/preset.ini | grep -cx 'name = \(a/b\|ab\|a b\)')" -eq 3 ]
+awk 'BEGIN { for (i = 0; i < 100000; i++) printf "[" }' >words/name-ab_seed-1/status.json
+"$greenbody" attach words >stdout 2>stderr
+is 'attach survives a status that nests' [ $? -eq 0 ]
+is 'and does not call that run live' grep -q '3 runs: 2 done, 0 under way' stdout
+
+# --- runs that are done and fall short --------------------------------------------------------
+short() { # keys...
+    "$greenbody" sweep p1-nobridge-38nm particles.count=50 structure.base=auto loading.unload_from= \
+        --replicas 2 "$@" >stdout 2>stderr
+}
+short 'loading.until=1 MPa' --out reached
+is 'where all is reached, nothing is told' sh -c '! grep -q "missed a goal" stderr reached/sweep.csv'
+short 'loading.until=1 MPa' numerics.max_evaluations=1 --out unrelaxed
+is 'points out of equilibrium are told' grep -q 'missed a goal .*equilibrium: 2 (unrelaxed/runs.csv)' stderr
+is 'with their number' \
+    [ "$(grep -c ',done,"[0-9]* of [0-9]* points are not in equilibrium"' unrelaxed/runs.csv)" -eq 2 ]
+is 'and in the table of means' grep -q '^# runs that missed a goal .*: 2 (runs.csv)' unrelaxed/sweep.csv
+short 'loading.until=100 GPa' 'material.young=10 GPa' numerics.fidelity=fast --out unreached
+is 'so are goals' [ "$(grep -c ',done,"not reached: loading.until = 100 GPa' unreached/runs.csv)" -eq 2 ]
+
 # --- designs and sensitivities -----------------------------------------------------------
 design() {
     "$greenbody" sweep p1-nobridge-38nm particles.count=100 structure.base=auto \

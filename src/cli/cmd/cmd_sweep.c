@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "many/sweep/param_sweep.h"
+#include "many/sweep/sweep_shortfall.h"
 #include "run/cost.h"
 #include "study/sensitivity/sensitivity_text.h"
 
@@ -127,6 +128,13 @@ static bool write_sensitivities(struct command *command, struct gb_error *err)
 static void print_missed(const struct command *command)
 {
     const struct gb_param_sweep *sweep = &command->sweep;
+    const size_t shortfalls = gb_sweep_shortfall_runs(&sweep->ensemble);
+    if (shortfalls > 0 && !command->request->quiet) {
+        gb_visible_line(stderr,
+                        "runs that missed a goal or have points that are not in "
+                        "equilibrium: %zu (%s/runs.csv)",
+                        shortfalls, command->request->out);
+    }
     const size_t missed = gb_sweep_target_missed(&sweep->target, &sweep->ensemble);
     if (missed > 0 && !command->request->quiet) {
         gb_visible_line(stderr,

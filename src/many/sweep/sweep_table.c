@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/units.h"
 #include "many/sweep/sweep_readings.h"
+#include "many/sweep/sweep_shortfall.h"
 #include "measure/fit/average.h"
 
 /* Default pressures reach from the first to the second, MPa. */
@@ -131,14 +132,29 @@ static void append_rows(GString *text, const struct gb_sweep_readings *readings,
     }
 }
 
-static void append_header(GString *text, const struct gb_axes *axes)
+/* Runs that count although they fell short. */
+static void append_shortfalls(GString *text, const struct gb_ensemble *ensemble)
+{
+    const size_t runs = gb_sweep_shortfall_runs(ensemble);
+    if (runs > 0) {
+        g_string_append_printf(text,
+                               "# runs that missed a goal or have points that are not "
+                               "in equilibrium: %zu (runs.csv)\n",
+                               runs);
+    }
+}
+
+static void append_header(GString *text, const struct gb_axes *axes,
+                          const struct gb_ensemble *ensemble)
 {
     g_string_append(
         text,
         "# greenbody " GB_VERSION "\n"
         "# means over the runs of a point and their standard errors (se_); load: where "
         "the mean\n# pressure over the compressed axes first reaches p_MPa; unload: "
-        "after unloading from it\npoint");
+        "after unloading from it\n");
+    append_shortfalls(text, ensemble);
+    g_string_append(text, "point");
     for (size_t i = 0; i < axes->count; i++) {
         char *name = gb_axes_column(axes, i);
         g_string_append_printf(text, ",%s", name);
@@ -156,7 +172,7 @@ GString *gb_sweep_table_means(struct gb_ensemble *ensemble, const struct gb_axes
                               const struct gb_sweep_table_pressures *at)
 {
     GString *text = g_string_new(NULL);
-    append_header(text, axes);
+    append_header(text, axes, ensemble);
     for (size_t point = 0; point < ensemble->points; point++) {
         struct gb_sweep_readings readings;
         gb_sweep_readings_init(&readings, ensemble, point, at);
@@ -193,9 +209,11 @@ GString *gb_sweep_table_runs(const struct gb_ensemble *ensemble)
                                : run->error.code != GB_OK ? "failed"
                                : used                     ? "done"
                                                           : "spare");
-        if (run->error.code != GB_OK) {
-            append_quoted(text, run->error.text);
+        char *shortfall = gb_sweep_shortfall_text(run);
+        if (run->error.code != GB_OK || shortfall != NULL) {
+            append_quoted(text, shortfall != NULL ? shortfall : run->error.text);
         }
+        g_free(shortfall);
         g_string_append_c(text, '\n');
         g_free(name);
     }

@@ -1,21 +1,18 @@
 #include "tui/runs/runs_picker.h"
 
 #include <ncurses.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "io/runs/run_delete.h"
 #include "tui/app/keys.h"
 #include "tui/runs/runs_picker_private.h"
+#include "tui/term/input/reread_loop.h"
 
-/* Seconds between two readings of the folders, or `share` times the duration of one,
- * whichever is longer. */
+/* Seconds between two readings of the folders. */
 static const double reread_s = 2.0;
-static const double share = 10.0;
 
-enum { STATUS_SIGNAL = 128, CTRL_D = 'D' & 31, FAR = 100000 };
+enum { CTRL_D = 'D' & 31, FAR = 100000 };
 
 const struct gb_run_list_item *gb_runs_picker_at(const struct gb_runs_picker *picker,
                                                  int index)
@@ -201,59 +198,28 @@ static void press(struct gb_runs_picker *picker, const struct gb_term_event *eve
     }
 }
 
-/* Exit status; -1: continue. */
-static int handle(struct gb_runs_picker *picker, const struct gb_term_event *event)
+static bool on_key(void *data, struct gb_term *term, const struct gb_term_event *event)
 {
-    switch (event->kind) {
-    case GB_TERM_KEY:
-    case GB_TERM_TEXT:
-        press(picker, event);
-        return picker->leave ? 0 : -1;
-    case GB_TERM_MOUSE:
-        go(picker, event->code == GB_TERM_WHEEL_UP     ? -1
-                   : event->code == GB_TERM_WHEEL_DOWN ? 1
-                                                       : 0);
-        return -1;
-    case GB_TERM_INTERRUPT:
-        return STATUS_SIGNAL + SIGINT;
-    case GB_TERM_TERMINATE:
-        return STATUS_SIGNAL + event->code;
-    case GB_TERM_HANGUP:
-        return STATUS_SIGNAL + SIGHUP;
-    case GB_TERM_TIMEOUT:
-    case GB_TERM_RESIZED:
-        break;
-    }
-    return -1;
+    struct gb_runs_picker *picker = data;
+    (void)term;
+    press(picker, event);
+    return !picker->leave;
 }
 
-static void show(struct gb_runs_picker *picker, struct gb_term *term)
+static void on_wheel(void *data, int rows)
 {
-    gb_runs_picker_draw(picker, term);
+    go(data, rows);
+}
+
+static void on_reread(void *data)
+{
+    reread(data);
+}
+
+static void show(void *data, struct gb_term *term)
+{
+    gb_runs_picker_draw(data, term);
     gb_term_flush(term);
-}
-
-static int loop(struct gb_runs_picker *picker, struct gb_term *term, bool *hangup)
-{
-    double due = gb_clock_s() + reread_s;
-    int status = -1;
-    show(picker, term);
-    while (status < 0) {
-        const double left = due - gb_clock_s();
-        const struct gb_term_event event =
-            gb_term_wait(term, left > 0.0 ? (int)(1e3 * left) + 1 : 0);
-        status = handle(picker, &event);
-        *hangup = event.kind == GB_TERM_HANGUP;
-        if (status < 0 && gb_clock_s() >= due) {
-            const double from = gb_clock_s();
-            reread(picker);
-            due = gb_clock_s() + MAX(reread_s, share * (gb_clock_s() - from));
-        }
-        if (status < 0) {
-            show(picker, term);
-        }
-    }
-    return status;
 }
 
 int gb_runs_picker_run(GPtrArray *(*list)(void), const struct gb_settings *settings,
@@ -261,7 +227,6 @@ int gb_runs_picker_run(GPtrArray *(*list)(void), const struct gb_settings *setti
 {
     struct gb_runs_picker *picker = g_new0(struct gb_runs_picker, 1);
     struct gb_term *term = NULL;
-    bool hangup = false;
     int status = gb_status_exit_code(GB_ERR_MACHINE);
     picker->list = list;
     picker->shown = g_array_new(FALSE, FALSE, sizeof(guint));
@@ -269,13 +234,9 @@ int gb_runs_picker_run(GPtrArray *(*list)(void), const struct gb_settings *setti
     *directory = NULL;
     if (gb_term_start(&term, settings, err)) {
         reread(picker);
-        status = loop(picker, term, &hangup);
-        if (hangup) {
-            gb_term_abandon(term);
-        } else {
-            gb_term_stop(term);
-        }
-        gb_term_destroy(term);
+        const struct gb_reread_loop loop = {reread_s,  on_key, on_wheel,
+                                            on_reread, show,   picker};
+        status = gb_reread_loop_run(&loop, term);
         *directory = status == 0 ? g_steal_pointer(&picker->chosen) : NULL;
     }
     g_clear_pointer(&picker->items, g_ptr_array_unref);

@@ -38,6 +38,9 @@ static void read_states(struct gb_runset_view *runset, GPtrArray *list)
                           "does it again",
                           sizeof run->error);
             }
+        } else if (err.code == GB_ERR_INPUT) { /* and not one without a status yet */
+            run->state = GB_RUN_STOPPED;
+            g_strlcpy(run->error, err.text, sizeof run->error);
         }
         runset->done += run->state == GB_RUN_DONE;
         runset->failed += run->state == GB_RUN_FAILED;

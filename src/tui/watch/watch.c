@@ -2,22 +2,19 @@
 
 #include <glib.h>
 #include <ncurses.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "tui/app/keys.h"
+#include "tui/term/input/reread_loop.h"
 #include "tui/watch/watch_views.h"
 
-/* Seconds between two readings of the files, or `share` times the duration of one,
- * whichever is longer. */
+/* Seconds between two readings of the files. */
 static const double reread_s = 1.0;
-static const double share = 10.0;
 /* Initial pressure of the map: P1 compares powders there. */
 static const double default_pa = 100e6;
 
-enum { STATUS_SIGNAL = 128, MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10, LAST_ASCII = 126 };
+enum { MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10, LAST_ASCII = 126 };
 
 /* "8 runs: 5 done, 2 live, 1 failed  72 %" */
 static void draw_header(const struct gb_watch *watch, const struct gb_paint *paint)
@@ -209,56 +206,29 @@ static void reread(struct gb_watch *watch)
     g_free(directory);
 }
 
-/* Exit status; -1: continue. */
-static int handle(struct gb_watch *watch, struct gb_term *term,
-                  const struct gb_term_event *event)
+static bool on_key(void *data, struct gb_term *term, const struct gb_term_event *event)
 {
-    switch (event->kind) {
-    case GB_TERM_KEY:
-    case GB_TERM_TEXT:
-        if (event->code <= LAST_ASCII || event->kind == GB_TERM_KEY) {
-            act(watch, term, event->code);
-        }
-        return watch->leave ? 0 : -1;
-    case GB_TERM_MOUSE:
-        watch->top += event->code == GB_TERM_WHEEL_UP     ? -1
-                      : event->code == GB_TERM_WHEEL_DOWN ? 1
-                                                          : 0;
-        return -1;
-    case GB_TERM_INTERRUPT:
-        return STATUS_SIGNAL + SIGINT;
-    case GB_TERM_TERMINATE:
-        return STATUS_SIGNAL + event->code;
-    case GB_TERM_HANGUP:
-        return STATUS_SIGNAL + SIGHUP;
-    case GB_TERM_TIMEOUT:
-    case GB_TERM_RESIZED:
-        break;
+    struct gb_watch *watch = data;
+    if (event->code <= LAST_ASCII || event->kind == GB_TERM_KEY) {
+        act(watch, term, event->code);
     }
-    return -1;
+    return !watch->leave;
 }
 
-static int loop(struct gb_watch *watch, struct gb_term *term, bool *hangup)
+static void on_wheel(void *data, int rows)
 {
-    double due = gb_clock_s() + reread_s;
-    int status = -1;
-    draw(watch, term);
-    while (status < 0) {
-        const double left = due - gb_clock_s();
-        const struct gb_term_event event =
-            gb_term_wait(term, left > 0.0 ? (int)(1e3 * left) + 1 : 0);
-        status = handle(watch, term, &event);
-        *hangup = event.kind == GB_TERM_HANGUP;
-        if (gb_clock_s() >= due) {
-            const double from = gb_clock_s();
-            reread(watch);
-            due = gb_clock_s() + MAX(reread_s, share * (gb_clock_s() - from));
-        }
-        if (status < 0) {
-            draw(watch, term);
-        }
-    }
-    return status;
+    struct gb_watch *watch = data;
+    watch->top += rows;
+}
+
+static void on_reread(void *data)
+{
+    reread(data);
+}
+
+static void on_draw(void *data, struct gb_term *term)
+{
+    draw(data, term);
 }
 
 static int first_glyphs(const struct gb_term *term, const struct gb_settings *settings)
@@ -275,7 +245,6 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
 {
     struct gb_watch watch = {.view = 0};
     struct gb_term *term = NULL;
-    bool hangup = false;
     if (!gb_runset_view_read(&watch.runset, directory, err) ||
         !gb_term_start(&term, settings, err)) {
         gb_runset_view_finish(&watch.runset);
@@ -285,13 +254,9 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     watch.glyphs = first_glyphs(term, settings);
     watch.level = gb_runset_view_level(&watch.runset, default_pa);
     watch.view = gb_watch_views_first(&watch);
-    const int status = loop(&watch, term, &hangup);
-    if (hangup) {
-        gb_term_abandon(term);
-    } else {
-        gb_term_stop(term);
-    }
-    gb_term_destroy(term);
+    const struct gb_reread_loop loop = {reread_s,  on_key,  on_wheel,
+                                        on_reread, on_draw, &watch};
+    const int status = gb_reread_loop_run(&loop, term);
     gb_plot_finish(&watch.plot);
     gb_runset_view_finish(&watch.runset);
     return status;
