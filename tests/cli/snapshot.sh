@@ -6,7 +6,7 @@
 unset DISPLAY
 export TERM=dumb
 
-good() { # name, arguments of the program
+good() { # name, arguments of the program: nothing on stderr; progress comes on a busy machine
     name=$1
     shift
     "$greenbody" "$@" >stdout 2>stderr && [ ! -s stderr ]
@@ -39,10 +39,10 @@ good "two rows with roses" snapshot a a/state.h5 --rose -o rose.png --size 600x6
 good "displacement since itself" snapshot a --since a --color displacement -o d.png \
     --size 300x300
 
-good "a sequence that moves" snapshot a --sequence -o moves.png --size 200x200
+good "a sequence that moves" snapshot a --sequence --quiet -o moves.png --size 200x200
 grep -aq acTL moves.png && [ "$(grep -ao fcTL moves.png | wc -l)" -ge 2 ]
 result "it has frames" $?
-good "a sequence of numbered frames" snapshot a --sequence -o f-%02d.png --size 200x200 \
+good "a sequence of numbered frames" snapshot a --sequence --quiet -o f-%02d.png --size 200x200 \
     --show both --color pressure
 [ -s f-01.png ] && [ -s f-02.png ] && [ ! -e f-00.png ]
 result "they are numbered from 1" $?
@@ -63,7 +63,7 @@ result "progress of the frames on a terminal" $?
 on_terminal snapshot a --sequence -q -o silent.png --size 200x200 && ! grep -q frames stdout
 result "none with --quiet" $?
 if command -v ffmpeg >/dev/null; then
-    good "a film" snapshot a --sequence -o film.gif --size 201x203
+    good "a film" snapshot a --sequence --quiet -o film.gif --size 201x203
     [ -s film.gif ] && [ ! -e film.gif.part.gif ]
     result "it is there" $?
 fi
@@ -78,7 +78,7 @@ for last; do :; done
 STUB
 chmod +x stub/ffmpeg
 # shellcheck disable=SC2016  # a name
-PATH=$here/stub:$PATH good "a film of any name" snapshot a --sequence -o '-y $(touch hit).gif'
+PATH=$here/stub:$PATH good "a film of any name" snapshot a --sequence --quiet -o '-y $(touch hit).gif'
 # shellcheck disable=SC2016
 [ ! -e hit ] && grep -qxF 'file:-y $(touch hit).gif.part.gif' words
 result "which ffmpeg gets as one word" $?
