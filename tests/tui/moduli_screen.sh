@@ -39,7 +39,9 @@ is 'the run is the same to the bit' cmp "$here/before" "$here/after"
 keys Y
 told 'nothing is measured twice' 'moduli saved'
 is 'and the table is the same' states 2
-keys C-l
+shows 'the card comes again' 'Result: elastic moduli'
+keys Escape
+hides 'and closes' 'Result: '
 "$greenbody" plot "$(run_directory)" --figure moduli -o "$here/figure.svg"
 is 'plot draws the same table' test -s "$here/figure.svg"
 leaves 'quits'

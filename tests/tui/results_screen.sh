@@ -50,10 +50,12 @@ shows "view E fits equations" 'E Equations'
 keys W
 shows "W shows the fit of the view" 'Result: equations of compaction (1 of 3)'
 shows "parameters with their intervals" ' = .* +- .*, 95 %: .* to '
+shows "their unit behind the value" 'Heckel 1/K = .* MPa, 95 %: '
 shows "and what they are worth" 'RMS residual'
 closes "and is closed"
 keys Y
 shows "moduli have a card" 'Result: elastic moduli (1 of 4)'
+shows "with its state" '1 state: density 0\.[0-9]*, [0-9.]* MPa'
 shows "with averages" 'E [0-9.]* GPa, K [0-9.]* GPa, G [0-9.]* GPa, nu 0'
 shows "and no invented interval" 'one cell, no interval'
 closes "Esc closes it, too"

@@ -20,10 +20,10 @@ static void add_parameters(struct gb_result_card *card,
         const struct gb_compaction_value value = gb_compaction_fits_value(fits, index, k);
         const char *unit = strcmp(value.unit, "1") != 0 ? value.unit : "";
         gb_number_error(value.value.value, value.value.error, 2, " +- ", number);
-        gb_result_card_add(card, GB_RESULT_VALUE, "%s %s = %s, 95 %%: %.4g to %.4g%s%s",
+        gb_result_card_add(card, GB_RESULT_VALUE, "%s %s = %s%s%s, 95 %%: %.4g to %.4g",
                            fits->fit[index].equation->title, value.name, number,
-                           value.value.low, value.value.high, *unit != '\0' ? " " : "",
-                           unit);
+                           *unit != '\0' ? " " : "", unit, value.value.low,
+                           value.value.high);
     }
 }
 
@@ -34,7 +34,7 @@ static void add_yield(struct gb_result_card *card, const struct gb_compaction_fi
     if (fits->heckel.equation != NULL) {
         gb_number_error(yield->value, yield->error, 2, " +- ", number);
         gb_result_card_add(card, GB_RESULT_VALUE,
-                           "Heckel 1/K = %s, 95 %%: %.4g to %.4g MPa", number, yield->low,
+                           "Heckel 1/K = %s MPa, 95 %%: %.4g to %.4g", number, yield->low,
                            yield->high);
     }
 }

@@ -37,7 +37,8 @@ bool gb_result_moduli_fill(struct gb_result_card *card, const struct gb_session 
     const struct gb_moduli_state *last =
         &g_array_index(states, struct gb_moduli_state, states->len - 1);
     gb_result_card_add(card, GB_RESULT_NOTE,
-                       "%u states; the last: density %.4f, %.4g MPa", states->len,
+                       "%u state%s: density %.4f, %.4g MPa", states->len,
+                       states->len == 1 ? "" : "s, the last",
                        value_of(last, "density"), value_of(last, "p_MPa"));
     if (isfinite(value_of(last, "K_GPa"))) {
         gb_result_card_add(card, GB_RESULT_VALUE,
