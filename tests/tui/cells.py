@@ -58,7 +58,7 @@ class Terminal:
     def start(self, mode, words):
         before = ['env', 'NO_COLOR=1'] if mode == 'mono' else []
         self.tmux('new-session', '-d', '-x', '200', '-y', '60', *before, self.program,
-                  *MODES[mode], *words)
+                  *words, *MODES[mode])
 
     def capture(self):
         self.rows = self.tmux('capture-pane', '-p').split('\n')[:-1]
