@@ -1,9 +1,11 @@
 #!/bin/sh
 # Builds without optional packages: each feature off alone, and all together, out of tree, with
-# warnings as errors; by clang all of them and none.  A feature compiles only its own files again.
-# Usage: features.sh SOURCE [clang]
+# warnings as errors.  A feature compiles only its own files again, and clang, where it is
+# installed, checks those.  With clang as the third word all of them and none are built by clang.
+# Usage: features.sh SOURCE BUILD_FOLDER [clang]
 set -u
 source=$(realpath "$1")
+main=$2
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 tests=0
@@ -47,8 +49,19 @@ built() { # name, build folder, options of meson: configures, compiles, starts
     result "$name" $?
 }
 
+# The files of the features that were built last, also as clang reads them.
+checked() { # name
+    if command -v clang >/dev/null; then
+        python3 "$source/tests/features.py" "$folder/one" "$main" clang >"$folder/log" 2>&1
+        result "$1, read by clang" $?
+    else
+        tests=$((tests + 1))
+        echo "ok $tests $1, read by clang # SKIP no clang here"
+    fi
+}
+
 # shellcheck disable=SC2046  # words
-if [ "${2:-}" = clang ]; then
+if [ "${3:-}" = clang ]; then
     export CC=clang
     built 'all off, by clang' "$folder/clang" $(features disabled)
     built 'all that is found, by clang' "$folder/clang" $(features auto)
@@ -56,9 +69,13 @@ else
     built 'all features off' "$folder/one" $(features disabled)
     grep -q 'no pictures, no MPI' "$folder/version"
     result 'and said so' $?
+    checked 'all features off'
     built 'images off' "$folder/one" $(features auto images=disabled)
+    checked 'images off'
     built 'pictures off' "$folder/one" $(features auto pictures=disabled)
+    checked 'pictures off'
     built 'MPI off' "$folder/one" $(features auto mpi=disabled)
+    checked 'MPI off'
 fi
 echo "1..$tests"
 exit $bad
