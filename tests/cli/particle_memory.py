@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 FEW, MANY = 1000, 20000
-LIMIT = 1900  # bytes; 2500 with the image of state.h5 and a second record in memory
+LIMIT = 1700  # bytes; 2500 with the image of state.h5 and a second record in memory
 
 
 def peak(program, folder, count):

@@ -139,18 +139,12 @@ static void write_item(void *data, int64_t t)
 }
 
 bool gb_contact_history_write(struct gb_contact_history *history,
-                              const struct gb_engine *engine,
-                              enum gb_contact_history_content content,
-                              struct gb_error *err)
+                              const struct gb_engine *engine, struct gb_error *err)
 {
-    const struct gb_contacts *contacts = &engine->contacts;
     const bool lists = engine->state.lists != GB_ENGINE_NO_LISTS;
-    const int planes = !lists                              ? 1
-                       : content == GB_CONTACT_HISTORY_ALL ? contacts->planes
-                                                           : contacts->kept;
+    const int planes = lists ? engine->contacts.kept : 1;
     const int parts = lists ? gb_team_size(engine->team) : 1;
     const int64_t count = lists ? engine->particles.count : 0;
-    history->version = 0;
     if (!reserve_parts(history, parts, err)) {
         return false;
     }
@@ -167,24 +161,6 @@ bool gb_contact_history_write(struct gb_contact_history *history,
     }
     gb_team_run(engine->team, parts, write_item, &transfer);
     history->count = begin[parts];
-    history->version = engine->history_version;
-    return true;
-}
-
-bool gb_contact_history_copy(struct gb_contact_history *to,
-                             const struct gb_contact_history *from, struct gb_error *err)
-{
-    if (!gb_contact_history_reserve(to, from->count, from->planes, from->real, err)) {
-        return false;
-    }
-    const size_t value = gb_real_size(from->real);
-    const size_t contacts = (size_t)from->count;
-    to->count = from->count;
-    to->version = from->version;
-    if (contacts > 0) {
-        memcpy(to->pair, from->pair, contacts * sizeof *to->pair);
-        memcpy(to->value, from->value, contacts * (size_t)from->planes * value);
-    }
     return true;
 }
 
@@ -273,7 +249,6 @@ void gb_contact_history_read(const struct gb_contact_history *history,
                              struct gb_engine *engine)
 {
     struct reading reading = {history, engine};
-    engine->history_version++;
     gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, read_range,
                        &reading);
 }

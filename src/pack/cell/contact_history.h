@@ -10,22 +10,15 @@
 
 struct gb_engine;
 
-/* Values of each contact that a history holds. */
-enum gb_contact_history_content {
-    GB_CONTACT_HISTORY_ALL,  /* every plane of the contacts: for list rebuilds */
-    GB_CONTACT_HISTORY_KEPT, /* without branch vectors: for copies and checkpoints */
-};
-
 /* The contacts with their histories in the order of the near list, independent of its
- * slots: how histories survive a rebuild, and what copies and checkpoints hold. */
+ * slots: what copies and checkpoints hold.  Branch vectors are left out. */
 struct gb_contact_history {
     int64_t count, capacity; /* contacts */
     int planes;              /* values of each */
     int32_t (*pair)[2];
     enum gb_real real;
-    void *value;     /* capacity x planes, of `real` */
-    int64_t version; /* history_version of the engine that it was written at; 0: none */
-    int64_t *begin;  /* scratch: first contact of each thread */
+    void *value;    /* capacity x planes, of `real` */
+    int64_t *begin; /* scratch: first contact of each thread */
     int parts;
 };
 
@@ -37,12 +30,7 @@ bool gb_contact_history_reserve(struct gb_contact_history *history, int64_t need
 
 /* Writes every contact of the engine, in the order of its list. */
 bool gb_contact_history_write(struct gb_contact_history *history,
-                              const struct gb_engine *engine,
-                              enum gb_contact_history_content content,
-                              struct gb_error *err);
-
-bool gb_contact_history_copy(struct gb_contact_history *to,
-                             const struct gb_contact_history *from, struct gb_error *err);
+                              const struct gb_engine *engine, struct gb_error *err);
 
 /* The values of contact number `index` into slot k. */
 void gb_contact_history_apply(const struct gb_contact_history *history, int64_t index,

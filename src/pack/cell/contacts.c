@@ -31,21 +31,19 @@ bool gb_contacts_init(struct gb_contacts *contacts, struct gb_contacts_shape sha
 {
     const bool solid = shape.dimension == 3, viscous = shape.viscous;
     const int base = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
-    const size_t stride = (size_t)(capacity + 15) / 16 * 16;
-    const size_t size = gb_real_size(shape.real);
+    const size_t room = (size_t)(capacity + 15) / 16 * 16; /* whole vectors */
     /* a viscous scene keeps all: its copies are restored in the middle of a motion */
     *contacts =
         (struct gb_contacts){.capacity = capacity,
                              .planes = base + last,
                              .kept = viscous ? base + last : base - (solid ? 3 : 2),
                              .real = shape.real};
-    char *slab = gb_alloc_array((size_t)contacts->planes * stride, size, err);
-    if (!slab) {
-        *contacts = (struct gb_contacts){0};
-        return false;
-    }
     for (int p = 0; p < contacts->planes; p++) {
-        contacts->plane[p] = slab + (size_t)p * stride * size;
+        contacts->plane[p] = gb_alloc_array(room, gb_real_size(shape.real), err);
+        if (!contacts->plane[p]) {
+            gb_contacts_finish(contacts);
+            return false;
+        }
     }
     number_planes(contacts, solid ? 3 : 2, solid ? 3 : 1);
     return true;
@@ -53,7 +51,9 @@ bool gb_contacts_init(struct gb_contacts *contacts, struct gb_contacts_shape sha
 
 void gb_contacts_finish(struct gb_contacts *contacts)
 {
-    gb_alloc_free(contacts->plane[0]);
+    for (int p = 0; p < contacts->planes; p++) {
+        gb_alloc_free(contacts->plane[p]);
+    }
     *contacts = (struct gb_contacts){0};
 }
 

@@ -37,7 +37,6 @@ struct gb_engine {
         *block_cost; /* of all blocks before one, blocks + 1; owner: engine_blocks.c */
     struct gb_tally_block total; /* of all blocks; owner: sweep.c */
     double force_rms, torque_rms;
-    int64_t history_version; /* grows whenever a contact history may have changed */
 };
 
 /* Position of particle i, even if `position` has not been synchronised with the

@@ -1,6 +1,7 @@
 #include "pack/cell/engine_lists.h"
 
 #include "pack/cell/engine.h"
+#include "pack/list/contact_carry.h"
 #include "pack/list/engine_blocks.h"
 #include "pack/list/list_build.h"
 #include "scene/loading_kind.h"
@@ -14,10 +15,11 @@ static bool reserve(struct gb_engine *engine, struct gb_error *err)
     const bool viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
     if (near > engine->contacts.capacity) {
         const struct gb_contacts_shape shape = {model->record_dimension, viscous, real};
-        gb_contacts_finish(&engine->contacts);
         if ((real == GB_REAL_F64 &&
              !gb_pair_results_resize_near(&engine->pair, near, err)) ||
-            !gb_contacts_init(&engine->contacts, shape, near, err)) {
+            !(engine->contacts.capacity > 0
+                  ? gb_contact_carry_grow(&engine->contacts, near, err)
+                  : gb_contacts_init(&engine->contacts, shape, near, err))) {
             return false;
         }
     }

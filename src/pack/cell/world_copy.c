@@ -30,7 +30,6 @@ bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **cop
 {
     const struct gb_engine *engine = &world->engine;
     const struct gb_particles *particles = &engine->particles;
-    const struct gb_contact_history *known = &world->checkpoint_history;
     if (!gb_world_copy_ensure(world, copy, err)) {
         return false;
     }
@@ -38,11 +37,7 @@ bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **cop
     (*copy)->count = particles->count;
     memcpy((*copy)->position, particles->position,
            3 * (size_t)particles->count * sizeof *particles->position);
-    /* a checkpoint of this state has the same contacts */
-    return engine->history_version > 0 && known->version == engine->history_version
-               ? gb_contact_history_copy(&(*copy)->history, known, err)
-               : gb_contact_history_write(&(*copy)->history, engine,
-                                          GB_CONTACT_HISTORY_KEPT, err);
+    return gb_contact_history_write(&(*copy)->history, engine, err);
 }
 
 bool gb_world_copy_restore(struct gb_world *world, const struct gb_world_copy *copy,

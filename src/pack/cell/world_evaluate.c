@@ -15,13 +15,20 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
                                struct gb_error *err)
 {
     struct gb_engine *engine = &world->engine;
+    if (!history && !gb_contact_carry_note(&world->carry, engine, err)) {
+        return false;
+    }
     gb_f32_convert_synchronise(engine);
     (void)gb_cell_fold(&engine->particles.cell); /* new lists have new images */
     gb_particles_wrap(&engine->particles, engine->team);
     if (!gb_engine_lists_build(engine, &engine->particles.cell, err)) {
         return false;
     }
-    gb_contact_history_read(history, engine);
+    if (history) {
+        gb_contact_history_read(history, engine);
+    } else {
+        gb_contact_carry_move(&world->carry, engine);
+    }
     for (int64_t b = 0; b < gb_blocks_count(engine->particles.count); b++) {
         engine->check[b].displacement = 0.0; /* also of a velocity update before this */
     }
@@ -99,9 +106,7 @@ static enum gb_list_patch_outcome patch_and_sweep(struct gb_engine *engine,
 static bool rebuild_and_sweep(struct gb_world *world, struct gb_sweep_along along,
                               struct gb_error *err)
 {
-    if (!gb_contact_history_write(&world->history, &world->engine, GB_CONTACT_HISTORY_ALL,
-                                  err) ||
-        !gb_world_evaluate_rebuild(world, &world->history, err)) {
+    if (!gb_world_evaluate_rebuild(world, NULL, err)) {
         return false;
     }
     (void)gb_sweep_run(&world->engine, along); /* new lists are valid */
@@ -112,7 +117,6 @@ static bool evaluate(struct gb_world *world, struct gb_sweep_along along,
                      struct gb_error *err)
 {
     struct gb_engine *engine = &world->engine;
-    engine->history_version++;
     const enum gb_sweep_outcome swept = try_sweep(engine, along);
     if (swept == GB_SWEEP_NOT_FINITE) {
         return gb_error_set(err, GB_ERR_GUARD,

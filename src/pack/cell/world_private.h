@@ -4,13 +4,14 @@
 #include "pack/cell/contact_history.h"
 #include "pack/cell/engine.h"
 #include "pack/cell/world.h"
+#include "pack/list/contact_carry.h"
 
 /* The inside of gb_world, for the top files of the periodic engine only: world*.c,
  * integrate_f32.c, nonaffine.c, pair_forces.c and virial.c (docs/engine.md). */
 struct gb_world {
     struct gb_engine engine;
-    struct gb_contact_history history;            /* across list rebuilds */
-    struct gb_contact_history checkpoint_history; /* of the last checkpoint */
+    struct gb_contact_carry carry;                /* across list rebuilds */
+    struct gb_contact_history checkpoint_history; /* while one is taken or loaded */
     int32_t *coordination; /* scratch of gb_world_coordination, one a particle */
     int64_t evaluations, rebuilds;
 };
@@ -22,8 +23,8 @@ struct gb_world_copy {
     struct gb_contact_history history;
 };
 
-/* New lists from the positions, with the contacts of a history; positions are wrapped
- * into the cell.  On failure there are no lists. */
+/* New lists from the positions, with the contacts of a history (NULL: those that there are);
+ * positions are wrapped into the cell.  On failure there are no lists. */
 bool gb_world_evaluate_rebuild(struct gb_world *world,
                                const struct gb_contact_history *history,
                                struct gb_error *err);

@@ -155,7 +155,6 @@ static void apply_history(const struct gb_contact_history *history,
 {
     const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
     int64_t index = 0;
-    engine->history_version++;
     for (int64_t k = 0; k < slots; k++) {
         if (gb_contacts_touch(&engine->contacts, k)) {
             gb_contact_history_apply(history, index++, &engine->contacts, k);
@@ -277,7 +276,7 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
     struct gb_neighbour_list *list = &engine->list;
     gb_f32_convert_synchronise(engine);
     gb_f32_convert_forces_to_f64(engine);
-    return gb_contact_history_write(history, engine, GB_CONTACT_HISTORY_KEPT, err) &&
+    return gb_contact_history_write(history, engine, err) &&
            record_build(world, record, err) &&
            record_vectors(world, record, "world/built_at", "d", list->built_position,
                           err) &&
@@ -298,7 +297,10 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
 bool gb_world_record(struct gb_world *world, struct gb_record *record,
                      struct gb_error *err)
 {
-    return record->loading ? load(world, record, err) : save(world, record, err);
+    const bool done =
+        record->loading ? load(world, record, err) : save(world, record, err);
+    gb_contact_history_finish(&world->checkpoint_history);
+    return done;
 }
 
 #undef AT

@@ -16,6 +16,7 @@ struct part {
     int64_t begin, end;
     struct gb_list_scan_found *found; /* particle after particle, sorted within each */
     int64_t count, capacity;
+    int64_t expected;  /* share of the pairs of the last build */
     int64_t near, far; /* number of pairs in each list; then their first slot there */
     struct gb_error err;
 };
@@ -26,7 +27,8 @@ static bool make_room(struct part *part, int64_t most)
     if (part->count + most < part->capacity) {
         return true;
     }
-    const int64_t room = 2 * part->capacity + most + 16 * GB_LIST_SCAN_MAX;
+    const int64_t more = part->capacity > 0 ? part->capacity / 4 : part->expected;
+    const int64_t room = part->capacity + more + most + 16 * GB_LIST_SCAN_MAX;
     struct gb_list_scan_found *found =
         gb_alloc_array((size_t)room, sizeof *found, &part->err);
     if (!found) {
@@ -171,7 +173,9 @@ static bool fill_lists(struct gb_neighbour_list *list, const struct gb_list_scan
         return false;
     }
     struct filling filling = {list, scan, part};
+    const int64_t pairs = list->near.pair_count + list->far.pair_count;
     for (int t = 0; t < parts; t++) {
+        part[t].expected = (pairs + pairs / 16) / parts;
         part[t].begin = gb_share(list->count, t, parts);
         part[t].end = gb_share(list->count, t + 1, parts);
     }

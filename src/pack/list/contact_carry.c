@@ -1,0 +1,231 @@
+#include "pack/list/contact_carry.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/team/team.h"
+#include "pack/cell/engine.h"
+#include "pack/kernel/share.h"
+#include "pack/list/blocks.h"
+
+/* Loops over the slots are compiled for each size of a number. */
+#define INLINE static inline __attribute__((always_inline))
+
+void gb_contact_carry_finish(struct gb_contact_carry *carry)
+{
+    gb_alloc_free(carry->pair);
+    gb_alloc_free(carry->slot);
+    gb_alloc_free(carry->begin);
+    *carry = (struct gb_contact_carry){0};
+}
+
+static bool reserve(struct gb_contact_carry *carry, int64_t need, struct gb_error *err)
+{
+    if (need <= carry->capacity) {
+        return true;
+    }
+    const size_t room = (size_t)(need + need / 16 + 16);
+    gb_alloc_free(carry->pair);
+    gb_alloc_free(carry->slot);
+    carry->capacity = 0;
+    carry->pair = gb_alloc_array(room, sizeof *carry->pair, err);
+    carry->slot = gb_alloc_array(room, sizeof *carry->slot, err);
+    if (!carry->pair || !carry->slot) {
+        return false;
+    }
+    carry->capacity = (int64_t)room;
+    return true;
+}
+
+static bool reserve_parts(struct gb_contact_carry *carry, int parts, struct gb_error *err)
+{
+    if (parts != carry->parts || !carry->begin) {
+        gb_alloc_free(carry->begin);
+        carry->begin = gb_alloc_array((size_t)parts + 1, sizeof *carry->begin, err);
+        carry->parts = parts;
+    }
+    return carry->begin != NULL;
+}
+
+struct noting {
+    struct gb_contact_carry *carry;
+    const struct gb_engine *engine;
+};
+
+/* First and last but one slot of part t. */
+static void slots_of(const struct noting *noting, int64_t t, int64_t slots[2])
+{
+    const int64_t count = noting->engine->particles.count;
+    const int64_t *start = noting->engine->list.near.start;
+    slots[0] = start[gb_share(count, (int)t, noting->carry->parts)];
+    slots[1] = start[gb_share(count, (int)t + 1, noting->carry->parts)];
+}
+
+static void count_item(void *data, int64_t t)
+{
+    const struct noting *noting = data;
+    int64_t slots[2], touching = 0;
+    slots_of(noting, t, slots);
+    for (int64_t k = slots[0]; k < slots[1]; k++) {
+        touching += gb_contacts_touch(&noting->engine->contacts, k);
+    }
+    noting->carry->begin[t + 1] = touching;
+}
+
+static void note_item(void *data, int64_t t)
+{
+    const struct noting *noting = data;
+    const struct gb_pair_list *near = &noting->engine->list.near;
+    struct gb_contact_carry *carry = noting->carry;
+    int64_t slots[2], index = carry->begin[t];
+    slots_of(noting, t, slots);
+    for (int64_t k = slots[0]; k < slots[1]; k++) {
+        if (gb_contacts_touch(&noting->engine->contacts, k)) {
+            carry->pair[index][0] = near->first[k];
+            carry->pair[index][1] = near->other[k];
+            carry->slot[index++] = (int32_t)k;
+        }
+    }
+}
+
+bool gb_contact_carry_note(struct gb_contact_carry *carry, const struct gb_engine *engine,
+                           struct gb_error *err)
+{
+    const int parts = gb_team_size(engine->team);
+    struct noting noting = {carry, engine};
+    carry->count = 0;
+    if (engine->state.lists == GB_ENGINE_NO_LISTS) {
+        return true;
+    }
+    if (!reserve_parts(carry, parts, err)) {
+        return false;
+    }
+    gb_team_run(engine->team, parts, count_item, &noting);
+    carry->begin[0] = 0;
+    for (int t = 0; t < parts; t++) {
+        carry->begin[t + 1] += carry->begin[t];
+    }
+    if (!reserve(carry, carry->begin[parts], err)) {
+        return false;
+    }
+    gb_team_run(engine->team, parts, note_item, &noting);
+    carry->count = carry->begin[parts];
+    return true;
+}
+
+bool gb_contact_carry_grow(struct gb_contacts *contacts, int64_t capacity,
+                           struct gb_error *err)
+{
+    const size_t size = gb_real_size(contacts->real);
+    const size_t room = (size_t)(capacity + 15) / 16 * 16; /* whole vectors */
+    for (int p = 0; p < contacts->planes; p++) {
+        void *plane = gb_alloc_array(room, size, err);
+        if (!plane) {
+            gb_contacts_finish(contacts);
+            return false;
+        }
+        memcpy(plane, contacts->plane[p], (size_t)contacts->capacity * size);
+        gb_alloc_free(contacts->plane[p]);
+        contacts->plane[p] = plane;
+    }
+    contacts->capacity = capacity;
+    return true;
+}
+
+struct moving {
+    struct gb_contact_carry *carry;
+    struct gb_engine *engine;
+};
+
+/* The first contact of particle i or of one behind it. */
+static int64_t find_particle(const struct gb_contact_carry *carry, int64_t i)
+{
+    int64_t low = 0, high = carry->count;
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (carry->pair[middle][0] < i) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* New slots of the contacts of the particles begin .. end - 1: a merge, since list and
+ * contacts have the same order. */
+static void find_slots(void *data, int64_t begin, int64_t end)
+{
+    const struct moving *moving = data;
+    const struct gb_pair_list *near = &moving->engine->list.near;
+    struct gb_contact_carry *carry = moving->carry;
+    const int64_t last = find_particle(carry, end);
+    for (int64_t c = find_particle(carry, begin); c < last; c++) {
+        const int32_t i = carry->pair[c][0], j = carry->pair[c][1];
+        int64_t k = near->start[i];
+        while (k < near->start[i + 1] && near->other[k] < j) {
+            k++;
+        }
+        const bool stays = k < near->start[i + 1] && near->other[k] == j;
+        carry->pair[c][1] = stays ? (int32_t)k : -1; /* the search reads the first only */
+    }
+}
+
+/* One array of the records, of numbers of `size` bytes.  Those that move down in ascending
+ * order, then those that move up in descending order overwrite none that has still to
+ * move. */
+INLINE void move_plane(char *plane, size_t size, const struct gb_contact_carry *carry)
+{
+    for (int64_t c = 0; c < carry->count; c++) {
+        const int32_t from = carry->slot[c], to = carry->pair[c][1];
+        if (to >= 0 && to < from) {
+            memcpy(plane + (size_t)to * size, plane + (size_t)from * size, size);
+        }
+    }
+    for (int64_t c = carry->count - 1; c >= 0; c--) {
+        const int32_t from = carry->slot[c], to = carry->pair[c][1];
+        if (to > from) {
+            memcpy(plane + (size_t)to * size, plane + (size_t)from * size, size);
+        }
+    }
+}
+
+/* `none` in all slots before `slots` to which no record moved. */
+INLINE void clear_others(char *plane, size_t size, const struct gb_contact_carry *carry,
+                         int64_t slots, const void *none)
+{
+    int64_t k = 0;
+    for (int64_t c = 0; c <= carry->count; c++) {
+        const int64_t to = c < carry->count ? carry->pair[c][1] : slots;
+        for (; k < to; k++) {
+            memcpy(plane + (size_t)k * size, none, size);
+        }
+        k += to >= 0;
+    }
+}
+
+static void move_item(void *data, int64_t p)
+{
+    const struct moving *moving = data;
+    struct gb_contacts *contacts = &moving->engine->contacts;
+    const struct gb_neighbour_list *list = &moving->engine->list;
+    const int64_t slots = gb_neighbour_list_slots(list, &list->near);
+    const double none = p == contacts->deepest ? -1.0 : 0.0;
+    if (contacts->real == GB_REAL_F32) {
+        const float none_f32 = (float)none;
+        move_plane(contacts->plane[p], sizeof none_f32, moving->carry);
+        clear_others(contacts->plane[p], sizeof none_f32, moving->carry, slots,
+                     &none_f32);
+    } else {
+        move_plane(contacts->plane[p], sizeof none, moving->carry);
+        clear_others(contacts->plane[p], sizeof none, moving->carry, slots, &none);
+    }
+}
+
+void gb_contact_carry_move(struct gb_contact_carry *carry, struct gb_engine *engine)
+{
+    struct moving moving = {carry, engine};
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, find_slots,
+                       &moving);
+    gb_team_run(engine->team, engine->contacts.planes, move_item, &moving);
+}
