@@ -213,7 +213,7 @@ bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
     H5Pset_create_intermediate_group(link, 1);
     const hid_t set = H5Dcreate2(file->file, array->name, gb_hdf_types_file(array->type),
                                  space, link, create, H5P_DEFAULT);
-    bool done = set >= 0 && gb_hdf_attributes_put_text(set, "unit", array->unit);
+    bool done = set >= 0 && gb_hdf_attributes_add_text(set, "unit", array->unit);
     if (done && array->rows > 0) {
         done = write_array(file, set, array, data);
         gb_hdf_memory_release(&file->memory);

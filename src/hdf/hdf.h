@@ -59,13 +59,15 @@ bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, voi
 
 /* Attributes of the root group: count numbers of one type, or a text.  A text that is
  * read is cut to size and made valid UTF-8 without control characters. */
-bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
-                        int count, const void *data, struct gb_error *err);
-bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
-                        int count, void *data, struct gb_error *err);
-bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
-                     struct gb_error *err);
-bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
-                     struct gb_error *err);
+bool gb_hdf_attributes_put_numbers(struct gb_hdf *file, const char *name,
+                                   enum gb_hdf_type type, int count, const void *data,
+                                   struct gb_error *err);
+bool gb_hdf_attributes_get_numbers(struct gb_hdf *file, const char *name,
+                                   enum gb_hdf_type type, int count, void *data,
+                                   struct gb_error *err);
+bool gb_hdf_attributes_put_text(struct gb_hdf *file, const char *name, const char *text,
+                                struct gb_error *err);
+bool gb_hdf_attributes_get_text(struct gb_hdf *file, const char *name, char *text,
+                                size_t size, struct gb_error *err);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum { TEXT_MAX = 4096 }; /* longest text attribute that is read */
 
-bool gb_hdf_attributes_put_text(hid_t object, const char *name, const char *text)
+bool gb_hdf_attributes_add_text(hid_t object, const char *name, const char *text)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, strlen(text) + 1);
@@ -26,8 +26,9 @@ bool gb_hdf_attributes_put_text(hid_t object, const char *name, const char *text
     return done;
 }
 
-bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
-                        int count, const void *data, struct gb_error *err)
+bool gb_hdf_attributes_put_numbers(struct gb_hdf *file, const char *name,
+                                   enum gb_hdf_type type, int count, const void *data,
+                                   struct gb_error *err)
 {
     gb_hdf_mute();
     const hsize_t shape = (hsize_t)count;
@@ -66,8 +67,9 @@ static void close_attribute(const hid_t id[3])
     }
 }
 
-bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
-                        int count, void *data, struct gb_error *err)
+bool gb_hdf_attributes_get_numbers(struct gb_hdf *file, const char *name,
+                                   enum gb_hdf_type type, int count, void *data,
+                                   struct gb_error *err)
 {
     gb_hdf_mute();
     hid_t id[3];
@@ -85,11 +87,11 @@ bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type 
     return fault == NULL || gb_hdf_broken(file, name, fault, err);
 }
 
-bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
-                     struct gb_error *err)
+bool gb_hdf_attributes_put_text(struct gb_hdf *file, const char *name, const char *text,
+                                struct gb_error *err)
 {
     gb_hdf_mute();
-    return gb_hdf_attributes_put_text(file->file, name, text) ||
+    return gb_hdf_attributes_add_text(file->file, name, text) ||
            gb_hdf_unwritten(file, name, err);
 }
 
@@ -112,8 +114,8 @@ static void clean_text(char *text)
     }
 }
 
-bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
-                     struct gb_error *err)
+bool gb_hdf_attributes_get_text(struct gb_hdf *file, const char *name, char *text,
+                                size_t size, struct gb_error *err)
 {
     gb_hdf_mute();
     hid_t id[3];

@@ -5,6 +5,6 @@
 #include <stdbool.h>
 
 /* A text attribute of fixed length on any object. */
-bool gb_hdf_attributes_put_text(hid_t object, const char *name, const char *text);
+bool gb_hdf_attributes_add_text(hid_t object, const char *name, const char *text);
 
 #endif

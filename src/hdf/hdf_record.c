@@ -47,9 +47,10 @@ bool gb_hdf_record_put(struct gb_hdf *file, const struct gb_record *record,
                        struct gb_error *err)
 {
     const uint64_t hash = gb_record_hash(record);
-    bool done = gb_hdf_put_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,
-                                   &layout_number, err) &&
-                gb_hdf_put_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1, &hash, err);
+    bool done = gb_hdf_attributes_put_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,
+                                              &layout_number, err) &&
+                gb_hdf_attributes_put_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1,
+                                              &hash, err);
     for (int k = 0; k < record->count && done; k++) {
         const struct gb_record_item *item = &record->item[k];
         char name[GB_HDF_LIST_NAME];
@@ -73,7 +74,8 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
                             "continue from it (written by pack or by an older version)",
                             path);
     }
-    if (!gb_hdf_get_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1, &layout, err)) {
+    if (!gb_hdf_attributes_get_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,
+                                       &layout, err)) {
         return false;
     }
     if (layout != layout_number) {
@@ -115,7 +117,8 @@ static bool check_hash(const struct gb_record *record, struct gb_hdf *file,
                        const char *path, struct gb_error *err)
 {
     uint64_t kept = 0;
-    return gb_hdf_get_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1, &kept, err) &&
+    return gb_hdf_attributes_get_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1, &kept,
+                                         err) &&
            (kept == gb_record_hash(record) ||
             gb_error_set(err, GB_ERR_INPUT,
                          "%s: checkpoint_hash: does not fit the data: damaged", path));

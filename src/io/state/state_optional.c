@@ -159,10 +159,11 @@ bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
                              struct gb_error *err)
 {
     char sum[DIGEST_SIZE];
-    bool done = !digest(state, sum) || gb_hdf_put_text(file, sum_name, sum, err);
+    bool done =
+        !digest(state, sum) || gb_hdf_attributes_put_text(file, sum_name, sum, err);
     if (done && isfinite(state->second_per_time)) {
-        done = gb_hdf_put_numbers(file, time_name, GB_HDF_DOUBLE, 1,
-                                  &state->second_per_time, err);
+        done = gb_hdf_attributes_put_numbers(file, time_name, GB_HDF_DOUBLE, 1,
+                                             &state->second_per_time, err);
     }
     for (int k = 0; k < ROWS && done; k++) {
         const struct gb_hdf_array shape = shape_of(state, &rows[k]);
@@ -223,7 +224,8 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
                    gb_hdf_get_array(file, &shape, *member_of(state, &rows[k]), err);
         }
     }
-    const bool summed = gb_hdf_get_text(file, sum_name, kept, sizeof kept, NULL);
+    const bool summed =
+        gb_hdf_attributes_get_text(file, sum_name, kept, sizeof kept, NULL);
     digest(state, sum);
     if (done && (some || summed) && (!summed || strcmp(kept, sum) != 0)) {
         done = gb_error_set(err, GB_ERR_INPUT, "%s: %s: does not fit the data: damaged",
@@ -234,7 +236,7 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
     }
     double second = 0.0;
     const bool timed =
-        gb_hdf_get_numbers(file, time_name, GB_HDF_DOUBLE, 1, &second, NULL);
+        gb_hdf_attributes_get_numbers(file, time_name, GB_HDF_DOUBLE, 1, &second, NULL);
     state->second_per_time =
         timed && isfinite(second) && second > 0.0 ? second : (double)NAN;
     return done && check(state, path, err);
