@@ -1,0 +1,79 @@
+/* The report: its parts, files, numbered captions. */
+#include "figure_folder.h"
+#include "figure_runs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "figures/report/report.h"
+
+/* Captions are numbered from 1 on, and name the conditions of the runs where they show
+ * data. */
+static void assert_numbered(const char *page, const char *before)
+{
+    int number = 0;
+    const bool figures = strstr(before, "Figure") != NULL;
+    for (const char *at = strstr(page, before); at != NULL; at = strstr(at + 1, before)) {
+        g_assert_cmpint(atoi(at + strlen(before)), ==, ++number);
+        const char *end = strchr(at + strlen(before), '<');
+        char *caption = g_strndup(at, (gsize)(end - at));
+        if (figures) {
+            g_assert_nonnull(strstr(caption, "Conditions: alumina; "));
+            g_assert_nonnull(strstr(caption, "fidelity "));
+        }
+        g_free(caption);
+    }
+    g_assert_cmpint(number, >, 3);
+}
+
+/* Every part of the report has its heading and its files. */
+static void test_report(void)
+{
+    static const char *const files[] = {
+        "index.html",       "report.md",       "preset.ini",       "tables/density.csv",
+        "tables/ends.csv",  "tables/runs.csv", "figures/time.svg", "figures/rdf.csv",
+        "runs/2-curve.csv", "tables/fits.csv", "figures/fit.svg",  "figures/heckel.csv"};
+    struct gb_runset set = {0};
+    struct gb_error err = {0};
+    char *paths[] = {figure_folder_path("a1", NULL), figure_folder_path("b1", NULL)};
+    char *output = figure_folder_path("report", NULL);
+    char *page = NULL;
+    g_assert_true(gb_runset_read(&set, paths, 2, &err));
+    g_assert_true(gb_report_write(&set, NULL, output, &err));
+    for (size_t k = 0; k < G_N_ELEMENTS(files); k++) {
+        char *file = g_build_filename(output, files[k], NULL);
+        g_test_message("%s", files[k]);
+        g_assert_true(g_file_test(file, G_FILE_TEST_EXISTS));
+        g_free(file);
+    }
+    char *html = g_build_filename(output, "index.html", NULL);
+    g_assert_true(g_file_get_contents(html, &page, NULL, NULL));
+    for (const struct gb_report_part *part = gb_report_parts(); part->name; part++) {
+        char *heading = g_strdup_printf("<h2>%s</h2>", part->heading);
+        g_assert_nonnull(strstr(page, heading));
+        g_free(heading);
+    }
+    g_assert_null(strstr(page, "die-height")); /* no figure without data */
+    g_assert_null(strstr(page, "Left out"));
+    assert_numbered(page, "<caption>Table ");
+    assert_numbered(page, "<figcaption>Figure ");
+    g_assert_false(gb_report_write(&set, NULL, output, &err));
+    g_assert_nonnull(strstr(err.text, "exists"));
+    gb_runset_finish(&set);
+    g_free(page);
+    g_free(html);
+    g_free(output);
+    g_free(paths[0]);
+    g_free(paths[1]);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    figure_folder_init();
+    figure_runs_write();
+    g_test_add_func("/figures/report", test_report);
+    const int status = g_test_run();
+    figure_folder_finish();
+    return status;
+}
