@@ -12,6 +12,7 @@
 #include "draw/gl/renderer.h"
 #include "draw/image/png.h"
 #include "draw/mute_stderr.h"
+#include "draw/scene_bounds.h"
 
 void gb_packing_image_init(struct gb_packing_image *packing_image)
 {
@@ -26,7 +27,7 @@ void gb_packing_image_arrange(const struct gb_packing_image *packing_image,
                               struct gb_scene *scene, struct gb_caption_layout *layout)
 {
     const struct gb_view *view = &scene->view;
-    const struct gb_caption_page page = {
+    struct gb_caption_page page = {
         .width = packing_image->width,
         .height = packing_image->height,
         .per_inch = packing_image->per_inch,
@@ -36,6 +37,11 @@ void gb_packing_image_arrange(const struct gb_packing_image *packing_image,
         .rods = gb_force_legend_lines(style),
         .aspect = (view->high[1] - view->low[1]) / (view->high[0] - view->low[0])};
     gb_caption_layout_arrange(&page, layout);
+    if (layout->unit > 0.0 && scene->frame_arrows > 0) {
+        gb_scene_bounds_include_arrows(scene);
+        page.aspect = (view->high[1] - view->low[1]) / (view->high[0] - view->low[0]);
+        gb_caption_layout_arrange(&page, layout);
+    }
     gb_view_set_frame(&scene->view, &layout->scene);
 }
 

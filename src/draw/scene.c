@@ -6,6 +6,8 @@
 #include "base/alloc.h"
 #include "base/mat.h"
 #include "base/vec.h"
+#include "draw/die_walls.h"
+#include "draw/load_arrows.h"
 #include "draw/scene_bounds.h"
 
 /* Share of the background colour in the farthest edges of the box.  Particles and rods do
@@ -82,14 +84,12 @@ static void set_rods(struct gb_scene *scene, const struct gb_picture_style *styl
     }
 }
 
-static void add_edge(struct gb_scene *scene, const double from[3], const double to[3])
+void gb_scene_add_edge(struct gb_scene *scene, const double from[3], const double to[3])
 {
     float *edge = scene->edge[scene->edge_count++];
-    double eye[2][3];
-    gb_view_eye(&scene->view, from, eye[0]);
-    gb_view_eye(&scene->view, to, eye[1]);
-    for (int k = 0; k < 6; k++) {
-        edge[k] = (float)eye[k / 3][k % 3];
+    for (int k = 0; k < 3; k++) {
+        edge[k] = (float)from[k];
+        edge[3 + k] = (float)to[k];
     }
 }
 
@@ -113,38 +113,12 @@ static void set_edges(struct gb_scene *scene, const struct gb_state *state)
             if (other == corner || planar) {
                 continue;
             }
-            double end[2][3];
+            double end[2][3], eye[2][3];
             set_corner(state, corner, end[0]);
             set_corner(state, other, end[1]);
-            add_edge(scene, end[0], end[1]);
-        }
-    }
-}
-
-/* Outline of the die: a circle at the floor, one at the punch or at the open end of the bore,
- * four lines on the wall; nothing of a die that is drawn off. */
-static void set_die(struct gb_scene *scene, const struct gb_state *state)
-{
-    const bool open = isfinite(state->die_top);
-    const double end = open ? fmin(state->die_top, state->cell[2]) : state->cell[2];
-    if (end <= 0.0) {
-        return;
-    }
-    double ring[2][GB_SCENE_RING][3];
-    for (int k = 0; k < GB_SCENE_RING; k++) {
-        const double angle = 2.0 * M_PI * k / GB_SCENE_RING;
-        for (int top = 0; top < 2; top++) {
-            ring[top][k][0] = 0.5 * state->cell[0] + state->die_radius * cos(angle);
-            ring[top][k][1] = 0.5 * state->cell[1] + state->die_radius * sin(angle);
-            ring[top][k][2] = top * end;
-        }
-    }
-    for (int k = 0; k < GB_SCENE_RING; k++) {
-        const int next = (k + 1) % GB_SCENE_RING;
-        add_edge(scene, ring[0][k], ring[0][next]);
-        add_edge(scene, ring[1][k], ring[1][next]);
-        if (k % (GB_SCENE_RING / 4) == 0) {
-            add_edge(scene, ring[0][k], ring[1][k]);
+            gb_view_eye(&scene->view, end[0], eye[0]);
+            gb_view_eye(&scene->view, end[1], eye[1]);
+            gb_scene_add_edge(scene, eye[0], eye[1]);
         }
     }
 }
@@ -209,6 +183,17 @@ static bool begin(struct gb_scene **out, const struct gb_state *state, size_t ro
     return true;
 }
 
+/* The die, or the edges of the periodic cell. */
+static bool set_box(struct gb_scene *scene, const struct gb_state *state,
+                    const struct gb_viewpoint *viewpoint, struct gb_error *err)
+{
+    if (state->die_radius > 0.0) {
+        return gb_die_walls_set(scene, state, viewpoint, err);
+    }
+    set_edges(scene, state);
+    return true;
+}
+
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
                      const struct gb_picture_style *style,
                      const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
@@ -222,20 +207,20 @@ bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
         return false;
     }
     const struct gb_picture_style *used = style != NULL ? style : usual;
-    const bool good = begin(out, state, used->rods, viewpoint, frame, background, err);
+    const bool good = begin(out, state, used->rods, viewpoint, frame, background, err) &&
+                      set_box(*out, state, viewpoint, err);
     if (good) {
         set_spheres(*out, state, used);
         set_rods(*out, used);
         set_cuts(*out, used);
-        if (state->die_radius > 0.0) {
-            set_die(*out, state);
-        } else {
-            set_edges(*out, state);
-        }
+        gb_load_arrows_set(*out, state, viewpoint);
         if (!(viewpoint->extent[0] > 0.0)) {
             gb_scene_bounds_tighten(*out);
         }
         gb_view_set_frame(&(*out)->view, frame);
+    } else {
+        gb_scene_destroy(*out);
+        *out = NULL;
     }
     gb_picture_style_destroy(usual);
     return good;
@@ -249,6 +234,7 @@ void gb_scene_destroy(struct gb_scene *scene)
     gb_alloc_free(scene->sphere);
     gb_alloc_free(scene->rod);
     gb_alloc_free(scene->facet);
+    gb_alloc_free(scene->wall);
     gb_alloc_free(scene->colour);
     gb_alloc_free(scene);
 }

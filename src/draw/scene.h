@@ -12,8 +12,10 @@
 
 enum gb_background { GB_BACKGROUND_WHITE, GB_BACKGROUND_DARK, GB_BACKGROUND_TRANSPARENT };
 
-/* A box has 12 edges; the outline of a die is two rings of chords and some lines. */
-enum { GB_SCENE_RING = 48, GB_SCENE_EDGES = 2 * GB_SCENE_RING + 4 };
+/* A box has 12 edges; the outline of a die is up to four rings of chords and six lines. */
+enum { GB_SCENE_RING = 48, GB_SCENE_EDGES = 4 * GB_SCENE_RING + 6 };
+/* Numbers of a triangle of a wall: position, normal and opacity of its corners. */
+enum { GB_SCENE_WALL_NUMBERS = 21, GB_SCENE_ARROWS = 2 };
 
 /* Geometry and colours of a picture, in eye coordinates; no GL, no files. */
 struct gb_scene {
@@ -27,6 +29,11 @@ struct gb_scene {
     uint8_t *colour; /* of spheres, rods, facets x 4: sRGB and 255 */
     int edge_count;
     float edge[GB_SCENE_EDGES][6]; /* both ends of the edges of box or die */
+    size_t walls;
+    float *wall; /* walls x GB_SCENE_WALL_NUMBERS: translucent triangles, far ones first */
+    int arrows, frame_arrows;
+    float arrow[GB_SCENE_ARROWS][6]; /* of pressing: tail and tip */
+    float frame_arrow[GB_SCENE_ARROWS][6]; /* those that the frame has room for */
     int cuts;        /* half-spaces n p > c, whose common part of spheres is cut away */
     float cut[3][4]; /* n and c, eye coordinates */
     float diameter;                /* 1 d: length of occlusion and shadows */
@@ -51,6 +58,9 @@ bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
                     const struct gb_frame *frame, enum gb_background background,
                     struct gb_error *err);
 void gb_scene_destroy(struct gb_scene *scene); /* NULL is fine */
+
+/* Adds an edge between two points in eye coordinates. */
+void gb_scene_add_edge(struct gb_scene *scene, const double from[3], const double to[3]);
 
 /* sRGB of the background, and of text and lines on it. */
 void gb_scene_background(enum gb_background background, uint8_t rgb[3]);

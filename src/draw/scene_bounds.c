@@ -24,6 +24,27 @@ static void add_ball(struct gb_view *view, const float *at, double radius)
     }
 }
 
+static void include_depth(struct gb_view *view, double depth)
+{
+    view->near = depth > 0.0 || view->orthographic ? fmin(view->near, depth) : view->near;
+    view->far = fmax(view->far, depth);
+}
+
+void gb_scene_bounds_include(struct gb_scene *scene, const double eye[3])
+{
+    const float at[3] = {(float)eye[0], (float)eye[1], (float)eye[2]};
+    add_ball(&scene->view, at, 0.0);
+    include_depth(&scene->view, eye[2]);
+}
+
+void gb_scene_bounds_include_arrows(struct gb_scene *scene)
+{
+    for (int i = 0; i < 2 * scene->frame_arrows; i++) {
+        const float *end = &scene->frame_arrow[i / 2][3 * (i % 2)];
+        add_ball(&scene->view, end, 0.0);
+    }
+}
+
 void gb_scene_bounds_tighten(struct gb_scene *scene)
 {
     struct gb_view tight = scene->view;
@@ -37,6 +58,11 @@ void gb_scene_bounds_tighten(struct gb_scene *scene)
     }
     for (int i = 0; i < 2 * scene->edge_count; i++) {
         add_ball(&tight, &scene->edge[i / 2][3 * (i % 2)], 0.0);
+    }
+    for (size_t i = 0; i < 3 * scene->walls; i++) {
+        const float *at = &scene->wall[GB_SCENE_WALL_NUMBERS / 3 * i];
+        add_ball(&tight, at, 0.0);
+        include_depth(&tight, at[2]);
     }
     if (tight.high[0] > tight.low[0] && tight.high[1] > tight.low[1]) {
         scene->view = tight;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "io/state/state_record.h"
 #include "measure/observe.h"
 #include "measure/observe_die.h"
 #include "pack/kernel/pair_forces.h"
@@ -104,23 +105,12 @@ static bool copy_walls(const struct gb_bed *bed, struct gb_state *state,
     return true;
 }
 
-/* Of the box around the die, or around the powder outside of it. */
-static double half_width(const struct gb_bed *bed)
-{
-    double half = bed->die.radius;
-    const bool outside = bed->die.funnel || bed->die.bore != GB_DIE_BORE_ENDLESS;
-    for (int64_t i = 0; i < bed->count && outside; i++) {
-        const double *x = bed->position[i];
-        half = fmax(half, fmax(fabs(x[0]), fabs(x[1])) + x[3]);
-    }
-    return half;
-}
-
 static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
                      struct gb_error *err)
 {
     const struct gb_bed *bed = loading->bed;
-    const double radius = half_width(bed);
+    const double radius = gb_state_record_half_width(
+        (const double(*)[4])bed->position, bed->count, &bed->die);
     struct gb_contact_counts counts;
     gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
     if (!gb_state_create(out, bed->count, counts.contacts, err)) {
@@ -129,10 +119,7 @@ static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
     struct gb_state *state = *out;
     const double top =
         fmax(gb_bed_top(bed), bed->die.punch ? bed->die.punch_position : 0.0);
-    state->die_radius = bed->die.radius;
-    state->die_top = bed->die.bore == GB_DIE_BORE_ENDLESS ? (double)NAN
-                     : bed->die.bore == GB_DIE_BORE_OPEN  ? bed->die.top
-                                                          : 0.0;
+    gb_state_record_walls(state, &bed->die);
     state->cell[0] = state->cell[1] = 2.0 * radius;
     state->cell[2] = top;
     gb_observe_die_contacts(bed, &counts, NULL, 0, state->contacts);
@@ -155,6 +142,7 @@ bool gb_packing_state_copy(const struct gb_loading *loading, struct gb_state **o
     }
     struct gb_state *state = *out;
     gb_point_measure_packing(loading, &state->point);
+    gb_state_record_pressed(state, model);
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
     state->seed = model->seed.value;

@@ -1,4 +1,4 @@
-/* Velocities, resultants and contact radii of a state: written, read back bit for bit, found
+/* Velocities, resultants, contact radii and numbers of pictures of a state: written, read back bit for bit, found
  * in the checkpoint of an older file, refused when damaged. */
 #include "io/state/state_optional.h"
 
@@ -107,6 +107,39 @@ static void test_none(void)
     gb_state_destroy(state);
 }
 
+/* Numbers of pictures: written and read; out of range they are as in a new state. */
+static void test_numbers(void)
+{
+    struct gb_state *state = make_state(2.0);
+    state->pressed[0] = state->pressed[2] = 1.0;
+    state->punch_height = 7.5;
+    state->funnel_height = 6.0;
+    state->funnel_outlet = 1.5;
+    state->funnel_slope = 0.7;
+    write_file(state, NULL);
+    struct gb_state *back = read_back();
+    assert_same(state->pressed, back->pressed, sizeof state->pressed);
+    g_assert_cmpfloat(back->punch_height, ==, 7.5);
+    g_assert_cmpfloat(back->funnel_height, ==, 6.0);
+    g_assert_cmpfloat(back->funnel_outlet, ==, 1.5);
+    g_assert_cmpfloat(back->funnel_slope, ==, 0.7);
+    gb_state_destroy(back);
+    state->pressed[1] = -1.0;
+    state->punch_height = -1.0;
+    state->funnel_height = INFINITY;
+    state->funnel_outlet = (double)NAN;
+    state->funnel_slope = 1e9;
+    write_file(state, NULL);
+    back = read_back();
+    g_assert_cmpfloat(back->pressed[2], ==, 0.0);
+    g_assert_true(isnan(back->punch_height));
+    g_assert_cmpfloat(back->funnel_height, ==, 0.0);
+    g_assert_cmpfloat(back->funnel_outlet, ==, 0.0);
+    g_assert_cmpfloat(back->funnel_slope, ==, 0.0);
+    gb_state_destroy(back);
+    gb_state_destroy(state);
+}
+
 static void add(struct gb_record *record, const char *name, int columns)
 {
     struct gb_error err = {0};
@@ -202,6 +235,7 @@ int main(int argc, char **argv)
     path = g_build_filename(folder, "state.h5", NULL);
     g_test_add_func("/io/state-optional/round-trip", test_round_trip);
     g_test_add_func("/io/state-optional/none", test_none);
+    g_test_add_func("/io/state-optional/numbers", test_numbers);
     g_test_add_func("/io/state-optional/cell-checkpoint", test_cell_checkpoint);
     g_test_add_func("/io/state-optional/die-checkpoint", test_die_checkpoint);
     g_test_add_func("/io/state-optional/damaged", test_damaged);

@@ -8,6 +8,7 @@
 #include "draw/caption/caption_pen.h"
 #include "draw/caption/colour_bar.h"
 #include "draw/caption/force_legend.h"
+#include "draw/caption/orientation.h"
 #include "draw/style/round_number.h"
 
 double gb_caption_bar_length(double max_m, char *label, size_t size)
@@ -65,10 +66,14 @@ static void draw_all(const struct gb_caption_pen *pen, const struct gb_image *im
     if (style->legend_count > 0) {
         gb_force_legend_draw(pen, &layout->legend, style, gb_view_scale(&scene->view));
     }
-    gb_caption_pen_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, max_width);
-    draw_point(pen, state, left, image->height - 2.9 * unit, image->width - 2.0 * left);
+    draw_point(pen, state, left, image->height - 2.9 * unit, layout->axes.left - left);
     draw_scale_bar(pen, scene, state, left, image->height - 1.4 * unit,
                    fmin(9.0 * unit, 0.3 * image->width));
+    gb_orientation_draw_axes(pen, &layout->axes, &scene->view, state->dimension);
+    const double taken = gb_orientation_draw_load(
+        pen, scene, (const double[2]){image->width - left, 1.5 * unit});
+    gb_caption_pen_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05,
+                        max_width - taken);
 }
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,

@@ -15,6 +15,7 @@ static const double print_height = 1.25;
 static const double above = 2.6;         /* title */
 static const double below = 4.4;         /* density and scale bar */
 static const double text_width = 24.0;   /* density and pressure on one line */
+static const double axes_side = 4.4;     /* room of the axes, beside that line */
 static const double bar_column = 7.5;    /* colour bar with labels and title */
 static const double legend_column = 10.2; /* longest line of the legend of forces */
 static const double bar_gap = 2.5, legend_gap = 1.0;
@@ -75,7 +76,8 @@ static void set_page(const struct gb_caption_page *page, const struct sizes *siz
     layout->scene.height = fmin(height, fmax(width * aspect, sizes->column_height));
     layout->height = (int)ceil(layout->scene.height + sizes->top + sizes->bottom);
     if (page->crop == GB_CAPTION_LAYOUT_CROP_BOTH && page->per_inch == 0) {
-        const double least = fmin((double)page->width, text_width * sizes->unit);
+        const double least =
+            fmin((double)page->width, (text_width + axes_side) * sizes->unit);
         layout->width = (int)ceil(fmax(width + around, least));
     }
     layout->scene.left += 0.5 * fmax(layout->width - around - width, 0.0);
@@ -109,6 +111,9 @@ void gb_caption_layout_arrange(const struct gb_caption_page *page,
     *layout = (struct gb_caption_layout){.unit = sizes.unit};
     set_page(page, &sizes, layout);
     if (annotated) {
+        const double side = axes_side * sizes.unit;
         set_column(page, &sizes, layout);
+        layout->axes = (struct gb_frame){layout->width - side, layout->height - side,
+                                         side, side};
     }
 }

@@ -33,6 +33,7 @@ struct gb_caption_layout {
     struct gb_frame scene;  /* space of the packing */
     struct gb_frame bar;    /* colour bar */
     struct gb_frame legend; /* of forces */
+    struct gb_frame axes;   /* of the cell, in the lower right corner */
     double unit;            /* height of a line of text, pixels; 0: no text */
 };
 

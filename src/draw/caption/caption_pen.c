@@ -82,7 +82,8 @@ void gb_caption_pen_line_that_fits(const struct gb_caption_pen *pen,
                                    const char *const *texts, double x, double y,
                                    double align, double scale, double max_width)
 {
-    const double least = fmin(pen->least, scale * pen->unit);
+    const double size = scale * pen->unit;
+    const double least = pen->least > 0.0 ? fmin(pen->least, size) : 0.8 * size;
     while (texts[1] != NULL) {
         char *markup = g_markup_escape_text(texts[0], -1);
         const bool fits = width_of(pen, markup, least) <= max_width;

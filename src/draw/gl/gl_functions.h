@@ -14,6 +14,7 @@
     X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                       \
     X(PFNGLBINDTEXTUREPROC, BindTexture)                                                 \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                         \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                     \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                   \
     X(PFNGLCLEARPROC, Clear)                                                             \
     X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                             \

@@ -15,9 +15,9 @@ enum {
     GB_GL_SAMPLES = 2,   /* a side, of one pixel */
     GB_GL_SHADOW = 1024, /* side of the shadow map */
     GB_GL_TEXTURES = 8,
-    GB_GL_PROGRAMS = 6,
-    GB_GL_BUFFERS = 7,
-    GB_GL_ARRAYS = 4
+    GB_GL_PROGRAMS = 7,
+    GB_GL_BUFFERS = 8,
+    GB_GL_ARRAYS = 5
 };
 
 /* Range of the ambient occlusion, mean diameters. */
@@ -29,7 +29,8 @@ enum gb_gl_program {
     GB_GL_PROGRAM_FACET,
     GB_GL_PROGRAM_EDGE,
     GB_GL_PROGRAM_SHADE,
-    GB_GL_PROGRAM_RESOLVE
+    GB_GL_PROGRAM_RESOLVE,
+    GB_GL_PROGRAM_WALL
 };
 enum gb_gl_texture {
     GB_GL_TEXTURE_SEEN,
@@ -48,13 +49,15 @@ enum gb_gl_buffer {
     GB_GL_BUFFER_RIBBONS,
     GB_GL_BUFFER_RODS,
     GB_GL_BUFFER_ROD_INDICES,
-    GB_GL_BUFFER_FACETS
+    GB_GL_BUFFER_FACETS,
+    GB_GL_BUFFER_WALLS
 };
 enum gb_gl_array {
     GB_GL_ARRAY_SPHERES,
     GB_GL_ARRAY_RIBBONS,
     GB_GL_ARRAY_RODS,
-    GB_GL_ARRAY_FACETS
+    GB_GL_ARRAY_FACETS,
+    GB_GL_ARRAY_WALLS
 };
 
 /* Names of the GL objects, and the tile being rendered. */
@@ -94,6 +97,9 @@ void gb_gl_buffers_free(struct gb_gl_pass *pass);
  * the target, samples */
 void gb_gl_parts_draw_shadow(struct gb_gl_pass *pass);
 void gb_gl_parts_draw_visible(struct gb_gl_pass *pass, int width, int height);
+
+/* Translucent walls over the colours of the samples. */
+void gb_gl_walls_draw(struct gb_gl_pass *pass, int width, int height);
 
 /* Colours of the samples; then the pixels of the tile into the image. */
 void gb_gl_shading_draw(struct gb_gl_pass *pass, int width, int height);

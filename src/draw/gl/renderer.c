@@ -58,7 +58,8 @@ bool gb_renderer_open(struct gb_renderer **out, struct gb_error *err)
 {
     static const struct gb_shaders_text *const text[GB_GL_PROGRAMS] = {
         &gb_shaders_sphere, &gb_shaders_rod,   &gb_shaders_facet,
-        &gb_shaders_edge,   &gb_shaders_shade, &gb_shaders_resolve};
+        &gb_shaders_edge,   &gb_shaders_shade, &gb_shaders_resolve,
+        &gb_shaders_wall};
     *out = NULL;
     struct gb_renderer *renderer = gb_alloc_array(1, sizeof *renderer, err);
     if (renderer == NULL) {
@@ -96,6 +97,7 @@ static void paint_tile(struct gb_gl_pass *pass)
     gb_gl_cameras_set_eye(pass);
     gb_gl_parts_draw_visible(pass, width, height);
     gb_gl_shading_draw(pass, width, height);
+    gb_gl_walls_draw(pass, width, height);
     gb_gl_shading_read_pixels(pass);
 }
 

@@ -1,16 +1,10 @@
 #include "draw/gl/shaders.h"
 
-/* projection: pixel of the axis, focal length in samples, 1 when orthographic.
- * depth_range: depth of 0 and of 1 in the depth buffer, which is linear. */
-#define CAMERA "uniform vec4 projection;\nuniform vec2 depth_range;\n"
-/* Half-spaces n p > c: normal and c. */
-#define CUTS "uniform int cuts;\nuniform vec4 cut[3];\n"
-
 /* Intersection of a ray and a sphere.  Distances are measured from the point of the ray
  * nearest to the centre: the plain quadratic loses all digits when the viewer is many
  * diameters away. */
 static const char sphere_vertex[] =
-    "#version 330 core\n" CAMERA "uniform samplerBuffer spheres;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA "uniform samplerBuffer spheres;\n"
     "uniform vec2 size;\n"
     "uniform mat3 rotation;\n"
     "uniform vec3 translation;\n"
@@ -38,7 +32,7 @@ static const char sphere_vertex[] =
 /* What lies in all half-spaces of the cut is not there: a ray that would enter the sphere in
  * it goes on to its end. */
 static const char sphere_fragment[] =
-    "#version 330 core\n" CAMERA CUTS "flat in vec4 ball;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA GB_SHADERS_CUTS "flat in vec4 ball;\n"
     "flat in uint id;\n"
     "out uint seen;\n"
     "void main()\n"
@@ -77,7 +71,7 @@ static const char sphere_fragment[] =
 /* A rod is a cylinder with a hemisphere at either end.  Distances are measured from the
  * point of the ray nearest to the first end, as for spheres. */
 static const char rod_vertex[] =
-    "#version 330 core\n" CAMERA "uniform samplerBuffer rods;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA "uniform samplerBuffer rods;\n"
     "uniform vec2 size;\n"
     "uniform mat3 rotation;\n"
     "uniform vec3 translation;\n"
@@ -120,7 +114,7 @@ static const char rod_vertex[] =
     "}\n";
 
 static const char rod_fragment[] =
-    "#version 330 core\n" CAMERA "flat in vec4 near_end;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA "flat in vec4 near_end;\n"
     "flat in vec3 far_end;\n"
     "flat in uint id;\n"
     "out uint seen;\n"
@@ -168,7 +162,7 @@ static const char rod_fragment[] =
 
 /* Triangles of a surface. */
 static const char facet_vertex[] =
-    "#version 330 core\n" CAMERA "uniform vec2 size;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA "uniform vec2 size;\n"
     "uniform mat3 rotation;\n"
     "uniform vec3 translation;\n"
     "uniform uint first;\n"
@@ -185,7 +179,7 @@ static const char facet_vertex[] =
     "    gl_Position = vec4((2.0 * pixel / size - 1.0) * w, 0.0, w);\n"
     "}\n";
 
-static const char facet_fragment[] = "#version 330 core\n" CAMERA "in float depth;\n"
+static const char facet_fragment[] = "#version 330 core\n" GB_SHADERS_CAMERA "in float depth;\n"
                                      "flat in uint id;\n"
                                      "out uint seen;\n"
                                      "void main()\n"
@@ -209,7 +203,7 @@ static const char edge_vertex[] =
     "}\n";
 
 static const char edge_fragment[] =
-    "#version 330 core\n" CAMERA "in float along;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA "in float along;\n"
     "out uint seen;\n"
     "void main()\n"
     "{\n"
@@ -234,7 +228,7 @@ static const char edge_fragment[] =
  * rotate the spiral by quarters of its step: the pixel has four times as many
  * directions. */
 static const char shade_fragment[] =
-    "#version 330 core\n" CAMERA CUTS "uniform usampler2D seen;\n"
+    "#version 330 core\n" GB_SHADERS_CAMERA GB_SHADERS_CUTS "uniform usampler2D seen;\n"
     "uniform sampler2D depths;\n"
     "uniform sampler2D shadows;\n"
     "uniform samplerBuffer spheres;\n"

@@ -3,8 +3,9 @@
 
 #include "draw/style/picture_style.h"
 
-/* Normal forces as rods between particle centres: thickness proportional to the force,
- * colour by its class.  Fills rods and legend of a style with known hidden particles. */
+/* Normal forces as rods between particle centres, and from these to the walls of a die:
+ * thickness proportional to the force, colour by its class.  Fills rods and legend of a style
+ * with known hidden particles. */
 bool gb_force_rods_make(struct gb_picture_style *style, const struct gb_state *state,
                         const struct gb_picture_style_request *request,
                         struct gb_error *err);

@@ -188,6 +188,18 @@ static int by_bridge(const struct gb_state *state, int64_t pair)
     return state->pair_bridged[pair] != 0 ? 0 : 1;
 }
 
+static int wall_by_sign(double normal)
+{
+    return normal >= 0.0 ? 0 : 1;
+}
+
+/* Walls have no bridges. */
+static int wall_unbridged(double normal)
+{
+    (void)normal;
+    return 1;
+}
+
 static const struct gb_picture_colours_row table[] = {
     {"coordination", "contacts per particle", GB_PICTURE_COLOURS_PARTICLES,
      .particles = colour_coordination},
@@ -202,11 +214,11 @@ static const struct gb_picture_colours_row table[] = {
      .dimension = GB_DIM_LENGTH},
     {"sign", "compressive or tensile force", GB_PICTURE_COLOURS_FORCES,
      .legend = {{"compressive", {38, 96, 160}}, {"tensile", {222, 104, 24}}},
-     .force_class = by_sign},
+     .force_class = by_sign, .wall_class = wall_by_sign},
     {"bridged", "contact with or without a bridge", GB_PICTURE_COLOURS_FORCES,
      .legend = {{"bridged contact", {150, 78, 132}},
                 {"unbridged contact", {86, 160, 211}}},
-     .force_class = by_bridge},
+     .force_class = by_bridge, .wall_class = wall_unbridged},
     {0},
 };
 

@@ -21,6 +21,7 @@ struct gb_picture_colours_row {
     /* Of forces: two classes, and the class of a contact (0 or 1). */
     struct gb_picture_style_legend legend[2];
     int (*force_class)(const struct gb_state *state, int64_t pair);
+    int (*wall_class)(double normal); /* of a contact with a wall */
 };
 
 /* The last row has no name. */

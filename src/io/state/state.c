@@ -161,7 +161,7 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
     state->dimension = 3;
     state->count = count;
     state->pair_count = pair_count;
-    state->die_top = state->second_per_time = (double)NAN;
+    state->die_top = state->second_per_time = state->punch_height = (double)NAN;
     for (int k = 0; k < ARRAY_COUNT; k++) {
         if (!allocate(state, &arrays[k], err)) {
             gb_state_destroy(state);

@@ -42,6 +42,12 @@ struct gb_state {
     char preset[256];       /* title of the preset */
     uint64_t seed;
     char version[32];
+    /* What pictures show beside the packing; states of earlier versions lack it. */
+    double pressed[3];    /* 1: an axis along which the scene is pressed */
+    double punch_height;  /* of the face of the upper punch of a die, d; NaN: none */
+    double funnel_height; /* of the funnel's outlet over the floor, d; 0: no funnel */
+    double funnel_outlet; /* radius, d */
+    double funnel_slope;  /* radius over height of its cone */
 };
 
 /* Arrays for count particles and pair_count pairs, zeroed. */

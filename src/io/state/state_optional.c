@@ -38,6 +38,21 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 
 static const char time_name[] = "second_per_time", sum_name[] = "sha256_optional";
 
+/* Numbers that a state may lack, with the ends of their ranges. */
+static const struct {
+    const char *name;
+    int count;
+    size_t member;
+    double low, high;
+} numbers[] = {
+    {"pressed_axes", 3, offsetof(struct gb_state, pressed), 0.0, 1.0},
+    {"punch_height_d", 1, offsetof(struct gb_state, punch_height), 0.0, 1e9},
+    {"funnel_height_d", 1, offsetof(struct gb_state, funnel_height), 0.0, 1e9},
+    {"funnel_outlet_d", 1, offsetof(struct gb_state, funnel_outlet), 0.0, 1e9},
+    {"funnel_slope", 1, offsetof(struct gb_state, funnel_slope), 0.0, 1e3},
+};
+enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBER_MAX = 3 };
+
 static double **member_of(struct gb_state *state, const struct optional_row *row)
 {
     return (double **)(void *)((char *)state + row->member);
@@ -165,6 +180,11 @@ bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
         done = gb_hdf_attributes_put_numbers(file, time_name, GB_HDF_DOUBLE, 1,
                                              &state->second_per_time, err);
     }
+    for (int k = 0; k < NUMBERS && done; k++) {
+        const void *value = (const char *)state + numbers[k].member;
+        done = gb_hdf_put_numbers(file, numbers[k].name, GB_HDF_DOUBLE, numbers[k].count,
+                                  value, err);
+    }
     for (int k = 0; k < ROWS && done; k++) {
         const struct gb_hdf_array shape = shape_of(state, &rows[k]);
         const double *data = data_of(state, &rows[k]);
@@ -211,6 +231,23 @@ static bool read_item(struct gb_state *state, const struct optional_row *row,
     return done;
 }
 
+/* What is missing or out of range stays as gb_state_create has it. */
+static void read_numbers(struct gb_state *state, struct gb_hdf *file)
+{
+    for (int k = 0; k < NUMBERS; k++) {
+        double value[NUMBER_MAX];
+        bool good = gb_hdf_get_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
+                                       numbers[k].count, value, NULL);
+        for (int c = 0; c < numbers[k].count && good; c++) {
+            good = value[c] >= numbers[k].low && value[c] <= numbers[k].high;
+        }
+        if (good) {
+            memcpy((char *)state + numbers[k].member, value,
+                   (size_t)numbers[k].count * sizeof *value);
+        }
+    }
+}
+
 bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const char *path,
                             struct gb_error *err)
 {
@@ -239,5 +276,6 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
         gb_hdf_attributes_get_numbers(file, time_name, GB_HDF_DOUBLE, 1, &second, NULL);
     state->second_per_time =
         timed && isfinite(second) && second > 0.0 ? second : (double)NAN;
+    read_numbers(state, file);
     return done && check(state, path, err);
 }

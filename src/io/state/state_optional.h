@@ -6,7 +6,7 @@
 #include "io/state/state.h"
 
 /* The arrays that a state may lack: velocities exist in scenes with time, resultants and
- * contact radii in states of a run.  Files of earlier versions have them, but for the
+ * contact radii in states of a run.  Beside them the numbers of pictures. Files of earlier versions have them, but for the
  * radii, in their checkpoint alone. */
 
 /* Memory for an array of the state, zeroed: &state->velocity, ... */

@@ -114,32 +114,50 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
     state->second_per_time = second_per_time(model);
+    gb_state_record_pressed(state, model);
     state->seed = model->seed.value;
     snprintf(state->preset, sizeof state->preset, "%s", params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }
 
-/* Half the width of the box: of the die, or of what has come out of it. */
-static double half_width(const double (*position)[4], int64_t count,
-                         const struct gb_die *die)
+void gb_state_record_pressed(struct gb_state *state, const struct gb_model *model)
 {
+    const bool all = model->geometry == GB_GEOMETRY_ISOTROPIC;
+    state->pressed[0] = all ? 1.0 : 0.0;
+    state->pressed[1] = all || model->geometry == GB_GEOMETRY_BIAXIAL ? 1.0 : 0.0;
+    state->pressed[2] = 1.0;
+}
+
+double gb_state_record_half_width(const double (*position)[4], int64_t count,
+                                  const struct gb_die *die)
+{
+    const bool outside = die->funnel || die->bore != GB_DIE_BORE_ENDLESS;
     double half = die->radius;
-    for (int64_t i = 0; i < count && die->bore != GB_DIE_BORE_ENDLESS; i++) {
+    for (int64_t i = 0; i < count && outside; i++) {
         const double *x = position[i];
         half = fmax(half, fmax(fabs(x[0]), fabs(x[1])) + x[3]);
     }
     return half;
 }
 
-/* Spheres of a bed in the box of the die, with their own radii. */
-static void copy_spheres(struct gb_state *state, const double (*position)[4],
-                         const struct gb_die *die)
+void gb_state_record_walls(struct gb_state *state, const struct gb_die *die)
 {
-    const double half = half_width(position, state->count, die);
     state->die_radius = die->radius;
     state->die_top = die->bore == GB_DIE_BORE_ENDLESS ? (double)NAN
                      : die->bore == GB_DIE_BORE_OPEN  ? die->top
                                                       : 0.0;
+    state->punch_height = die->punch ? die->punch_position : (double)NAN;
+    state->funnel_height = die->funnel ? die->height : 0.0;
+    state->funnel_outlet = die->funnel ? die->outlet : 0.0;
+    state->funnel_slope = die->funnel ? die->sine / die->cosine : 0.0;
+}
+
+/* Spheres of a bed in the box of the die, with their own radii. */
+static void copy_spheres(struct gb_state *state, const double (*position)[4],
+                         const struct gb_die *die)
+{
+    const double half = gb_state_record_half_width(position, state->count, die);
+    gb_state_record_walls(state, die);
     state->cell[0] = state->cell[1] = 2.0 * half;
     for (int64_t i = 0; i < state->count; i++) {
         for (int k = 0; k < 3; k++) {
@@ -150,7 +168,8 @@ static void copy_spheres(struct gb_state *state, const double (*position)[4],
     }
 }
 
-/* The die of the record; bores of earlier versions are endless. */
+/* The die of the record, without a funnel, as points come after it; bores of earlier versions
+ * are endless. */
 static bool take_die(const struct gb_record *record, const struct gb_model *model,
                      struct gb_die *die, struct gb_error *err)
 {
