@@ -40,7 +40,8 @@ bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
 bool gb_runner_resume(struct gb_runner **out, const char *directory,
                       struct gb_error *err);
 /* Shows a run that another process computes, and writes nothing: commands other than
- * GB_COMMAND_STOP have no effect, and there are no view samples. */
+ * GB_COMMAND_STOP have no effect.  View samples are those of its state.h5, taken without
+ * GB_COMMAND_WATCH whenever a new one is there. */
 bool gb_runner_follow(struct gb_runner **out, const char *directory,
                       struct gb_error *err);
 /* The directory in which the run is recorded, or that is followed; NULL: none. */

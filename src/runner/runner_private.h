@@ -73,7 +73,9 @@ void gb_runner_publish_snapshot(struct gb_runner *runner);
  * state. */
 void gb_runner_publish_state(struct gb_runner *runner, enum gb_run_state state);
 void gb_runner_publish_view(struct gb_runner *runner);
-/* The same when the last one is old enough. */
+/* A view sample of a state of a file. */
+void gb_runner_publish_view_of(struct gb_runner *runner, const struct gb_state *state);
+/* gb_runner_publish_state and gb_runner_publish_view when the last one is old enough. */
 void gb_runner_publish_if_due(struct gb_runner *runner, enum gb_run_state state);
 void gb_runner_publish_view_if_due(struct gb_runner *runner);
 

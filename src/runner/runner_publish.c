@@ -67,6 +67,13 @@ void gb_runner_publish_view(struct gb_runner *runner)
     runner->sample_cost_s = runner->sampled_s - before;
 }
 
+void gb_runner_publish_view_of(struct gb_runner *runner, const struct gb_state *state)
+{
+    gb_view_sampling_take_state(state, true, &runner->view_start,
+                                &runner->view[runner->view_slots.back]);
+    gb_publish_slots_swap(&runner->view_slots);
+}
+
 void gb_runner_publish_state(struct gb_runner *runner, enum gb_run_state state)
 {
     gb_runner_publish_view(runner);

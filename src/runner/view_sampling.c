@@ -7,7 +7,6 @@
 #include "io/state/state_stress.h"
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
-#include "pack/die/bed.h"
 #include "scene/loading_kind.h"
 
 /* Largest distance of g(r), diameters: P1 finds no order beyond. */
@@ -37,23 +36,25 @@ static void choose_window(const struct gb_state *state, double window[3])
 
 /* The walls.  While the powder falls out of its funnel, the box keeps the size that it had at
  * first, so that the picture does not grow. */
-static void describe_die(const struct gb_die *die, struct gb_view_start *start,
+static void describe_die(const struct gb_state *state, struct gb_view_start *start,
                          struct gb_view_sample *sample)
 {
+    const bool funnel = state->funnel_height > 0.0;
+    const bool ends = isfinite(state->die_top);
     sample->die = (struct gb_view_die){
         .shown = true,
-        .radius = die->radius,
-        .top = die->funnel                      ? die->height
-               : die->bore == GB_DIE_BORE_OPEN ? die->top
-                                               : sample->window[2],
-        .gone = die->bore == GB_DIE_BORE_GONE,
-        .funnel = die->funnel,
-        .outlet = die->outlet,
-        .funnel_slope = die->funnel ? die->sine / die->cosine : 0.0,
-        .punch = die->punch,
-        .punch_height = die->punch_position,
+        .radius = state->die_radius,
+        .top = funnel                         ? state->funnel_height
+               : ends && state->die_top > 0.0 ? state->die_top
+                                              : sample->window[2],
+        .gone = ends && state->die_top <= 0.0,
+        .funnel = funnel,
+        .outlet = state->funnel_outlet,
+        .funnel_slope = state->funnel_slope,
+        .punch = isfinite(state->punch_height),
+        .punch_height = isfinite(state->punch_height) ? state->punch_height : 0.0,
     };
-    if (die->funnel) {
+    if (funnel) {
         start->half_width = fmax(start->half_width, 0.5 * sample->window[0]);
         start->height = fmax(start->height, sample->window[2]);
         sample->window[0] = 2.0 * start->half_width;
@@ -151,15 +152,11 @@ static void note_start(const struct gb_state *state, bool pressed,
     }
 }
 
-void gb_view_sampling_take(const struct gb_experiment *experiment,
-                         struct gb_view_start *start, struct gb_view_sample *sample)
+void gb_view_sampling_take_state(const struct gb_state *state, bool pressed,
+                                 struct gb_view_start *start,
+                                 struct gb_view_sample *sample)
 {
-    struct gb_state *state = NULL;
-    const struct gb_bed *bed = gb_experiment_bed(experiment);
-    sample->valid = false;
-    if (!gb_experiment_state(experiment, &state, NULL)) {
-        return;
-    }
+    const bool in_die = state->die_radius > 0.0;
     sample->dimension = state->dimension;
     sample->density = state->point.density;
     sample->count = 0;
@@ -167,21 +164,32 @@ void gb_view_sampling_take(const struct gb_experiment *experiment,
     sample->die.shown = false;
     memcpy(sample->edge, state->cell, sizeof sample->edge);
     choose_window(state, sample->window);
-    if (bed != NULL) {
+    if (in_die) {
         memcpy(sample->window, state->cell, sizeof sample->window);
-        describe_die(&bed->die, start, sample);
+        describe_die(state, start, sample);
     }
-    note_start(state, bed == NULL || gb_experiment_point(experiment)->height_m > 0.0,
-               start);
+    note_start(state, pressed, start);
     double *stress = gb_alloc_array((size_t)state->count, sizeof *stress, NULL);
     if (stress != NULL) {
         gb_state_stress_mean(state, stress);
     }
     copy_front(state, start, stress, sample);
     gb_alloc_free(stress);
-    if (bed == NULL) {
+    if (!in_die) {
         measure_distances(state, sample);
     }
-    gb_state_destroy(state);
     sample->valid = true;
+}
+
+void gb_view_sampling_take(const struct gb_experiment *experiment,
+                           struct gb_view_start *start, struct gb_view_sample *sample)
+{
+    struct gb_state *state = NULL;
+    sample->valid = false;
+    if (gb_experiment_state(experiment, &state, NULL)) {
+        const bool pressed = gb_experiment_bed(experiment) == NULL ||
+                             gb_experiment_point(experiment)->height_m > 0.0;
+        gb_view_sampling_take_state(state, pressed, start, sample);
+        gb_state_destroy(state);
+    }
 }

@@ -21,4 +21,9 @@ void gb_view_sampling_finish(struct gb_view_start *start);
 void gb_view_sampling_take(const struct gb_experiment *experiment,
                          struct gb_view_start *start, struct gb_view_sample *sample);
 
+/* The same of a state.  pressed: pressing has begun. */
+void gb_view_sampling_take_state(const struct gb_state *state, bool pressed,
+                                 struct gb_view_start *start,
+                                 struct gb_view_sample *sample);
+
 #endif

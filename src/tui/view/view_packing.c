@@ -187,7 +187,10 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
     const struct gb_session_shown shown = gb_session_shown(session);
     struct gb_plot *plot = &panel->plot;
     if (shown.sample == NULL || !shown.sample->valid) {
-        gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
+        gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT,
+                     session->attached != NULL
+                         ? "no packing yet: it comes with the run's first checkpoint"
+                         : "no packing yet");
         return;
     }
     if (panel->pixels) { /* the image covers these cells */
