@@ -61,7 +61,7 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
     plot->exact_x = plot->exact_y = false;
     plot->foot = 0;
     for (size_t i = 0; i < cells; i++) {
-        plot->cell[i] = (struct gb_plot_cell){' ', GB_PLOT_INK_NONE, false, 0};
+        plot->cell[i] = (struct gb_plot_cell){.ch = ' ', .ink = GB_PLOT_INK_NONE};
         plot->dots[i] = 0;
     }
     plot->top = 0;
@@ -74,7 +74,8 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
 void gb_plot_put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 {
     if (row >= 0 && row < plot->rows && col >= 0 && col < plot->cols) {
-        plot->cell[row * plot->cols + col] = (struct gb_plot_cell){ch, ink, true, 0};
+        plot->cell[row * plot->cols + col] =
+            (struct gb_plot_cell){.ch = ch, .ink = ink, .fixed = true};
     }
 }
 
@@ -289,6 +290,11 @@ static bool is_free(const struct gb_plot *plot, int row, int col)
     return cell->ch == ' ' && !cell->fixed;
 }
 
+static bool takes_cursor(const struct gb_plot *plot, int row, int col)
+{
+    return is_free(plot, row, col) || plot->cell[row * plot->cols + col].tone;
+}
+
 void gb_plot_cursor(struct gb_plot *plot, double x, double y)
 {
     const double px = gb_plot_axis_position(&plot->x, x);
@@ -299,12 +305,12 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y)
     const int row = field_row(plot, py);
     const int col = field_col(plot, px);
     for (int r = plot->top; r < plot->top + plot->field_rows; r++) {
-        if (is_free(plot, r, col)) {
+        if (takes_cursor(plot, r, col)) {
             gb_plot_put(plot, r, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_CURSOR);
         }
     }
     for (int c = plot->left; c < plot->left + plot->field_cols; c++) {
-        if (is_free(plot, row, c)) {
+        if (takes_cursor(plot, row, c)) {
             gb_plot_put(plot, row, c, line_char(plot, 0x2500, '-'), GB_PLOT_INK_CURSOR);
         }
     }

@@ -33,6 +33,7 @@ struct gb_plot_cell {
     uint32_t ch; /* Unicode */
     int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
     bool fixed;  /* a marker or a text: lines pass behind it */
+    bool tone;   /* dots of a band alone: a line takes their place */
     int back; /* of a shaded cell: 1 + shade of its background; 0: background of the terminal */
 };
 
@@ -44,6 +45,13 @@ struct gb_plot_series {
     int marker;  /* 0: none; 1.. one of the marker shapes */
     int spacing; /* cells between markers; 0: one at the last point only */
     bool points; /* no line between the points */
+};
+
+/* The area between two lines of as many points.  NaN interrupts it. */
+struct gb_plot_band {
+    const double *x[2], *y[2];
+    size_t count;
+    int ink;
 };
 
 enum { GB_PLOT_NAME = 64 };
@@ -82,10 +90,13 @@ void gb_plot_bare(struct gb_plot *plot, const double x_ends[2], const double y_e
 
 void gb_plot_line(struct gb_plot *plot, const struct gb_plot_series *series);
 
+/* A band as an even tone of few dots, in cells that are empty: draw it before the lines. */
+void gb_plot_band(struct gb_plot *plot, const struct gb_plot_band *band);
+
 /* A vertical bar from the bottom of the field. */
 void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int ink);
 
-/* Cross hairs at a point, drawn into empty cells only. */
+/* Cross hairs at a point, drawn into empty cells and over bands. */
 void gb_plot_cursor(struct gb_plot *plot, double x, double y);
 
 /* Text inside the picture, UTF-8, at its edge cut with an ellipsis. */

@@ -37,11 +37,46 @@ static void dot(struct gb_plot *plot, int x, int y, int ink)
     const int ny = gb_plot_raster_dots_y(plot->glyphs);
     const int at = (plot->top + y / ny) * plot->cols + plot->left + x / nx;
     struct gb_plot_cell *cell = &plot->cell[at];
+    if (cell->tone) {
+        cell->tone = false;
+        plot->dots[at] = 0;
+    }
     plot->dots[at] = (uint8_t)(plot->dots[at] | 1u << (y % ny * nx + x % nx));
     if (!cell->fixed) {
         cell->ch = glyph(plot->glyphs, plot->dots[at]);
         cell->ink = ink;
     }
+}
+
+/* Whether a dot is one of the tone. */
+static bool is_of_tone(enum gb_plot_glyphs glyphs, int x, int y)
+{
+    switch (glyphs) {
+    case GB_PLOT_BRAILLE:
+        return y % 2 == 0 && x % 2 == y / 2 % 2;
+    case GB_PLOT_BLOCK:
+        return y % 2 == 0;
+    default:
+        return y % 2 == 1 && (x + y / 2) % 2 == 0;
+    }
+}
+
+void gb_plot_raster_tone(struct gb_plot *plot, int x, int y, int ink)
+{
+    static const uint32_t light_shade = 0x2591;
+    const int nx = gb_plot_raster_dots_x(plot->glyphs);
+    const int ny = gb_plot_raster_dots_y(plot->glyphs);
+    const int at = (plot->top + y / ny) * plot->cols + plot->left + x / nx;
+    struct gb_plot_cell *cell = &plot->cell[at];
+    if (!is_of_tone(plot->glyphs, x, y) || cell->fixed ||
+        (plot->dots[at] != 0 && !cell->tone)) {
+        return;
+    }
+    plot->dots[at] = (uint8_t)(plot->dots[at] | 1u << (y % ny * nx + x % nx));
+    cell->ch = plot->glyphs == GB_PLOT_BLOCK ? light_shade
+                                             : glyph(plot->glyphs, plot->dots[at]);
+    cell->ink = ink;
+    cell->tone = true;
 }
 
 /* One side of Liang and Barsky's clipping: keeps t in [*from, *to] where p t <= q. */
@@ -144,6 +179,6 @@ void gb_plot_raster_column(struct gb_plot *plot, int col, double share, int ink)
         }
         struct gb_plot_cell *cell =
             &plot->cell[(plot->top + plot->field_rows - 1 - i) * plot->cols + col];
-        *cell = (struct gb_plot_cell){ch, ink, true, 0};
+        *cell = (struct gb_plot_cell){.ch = ch, .ink = ink, .fixed = true};
     }
 }

@@ -4,12 +4,10 @@
 #include "scene/path/path.h"
 #include "tui/view/views.h"
 
-/* The mean of replicas: its colour; its band ends at so many standard errors and is filled
- * with lines on either side. */
+/* The mean of replicas: its colour; its band ends at so many standard errors. */
 enum {
     GB_VIEW_INK_REPLICAS = GB_PLOT_INK_SERIES + 5,
-    GB_VIEW_BAND_ERRORS = 2,
-    GB_VIEW_BAND_LINES = 6
+    GB_VIEW_BAND_ERRORS = 2
 };
 
 /* Unit of an axis that ends at a pressure, Pa: 1 MPa, or 1 GPa; its label is "p, MPa". */

@@ -211,19 +211,24 @@ static void draw_level(const struct view *view, double level, int ink)
 }
 
 /* A curve plus `errors` of its standard errors. */
-static void draw_shifted(const struct view *view, const struct difference *curve,
-                         double errors, const struct gb_plot_series *style_of)
+static void shift(const struct view *view, const struct difference *curve, double errors,
+                  double x[SAMPLES], double y[SAMPLES])
 {
-    double x[SAMPLES], y[SAMPLES];
     for (int k = 0; k < SAMPLES; k++) {
         x[k] = view->pressure_pa[k] / view->unit_pa;
         y[k] = curve->value[k] + (errors != 0.0 ? errors * curve->error[k] : 0.0);
     }
-    struct gb_plot_series series = *style_of;
-    series.x = x;
-    series.y = y;
-    series.count = SAMPLES;
-    gb_plot_line(&view->panel->plot, &series);
+}
+
+static void draw_band(const struct view *view, const struct difference *curve)
+{
+    double x[SAMPLES], low[SAMPLES], high[SAMPLES];
+    shift(view, curve, -GB_VIEW_BAND_ERRORS, x, low);
+    shift(view, curve, GB_VIEW_BAND_ERRORS, x, high);
+    gb_plot_band(&view->panel->plot, &(struct gb_plot_band){.x = {x, x},
+                                                            .y = {low, high},
+                                                            .count = SAMPLES,
+                                                            .ink = GB_PLOT_INK_DIM});
 }
 
 /* Measured points stand at their pressures, with their errors. */
@@ -253,20 +258,19 @@ static void draw_measured(const struct view *view)
 
 static void draw_curve(const struct view *view, const struct difference *curve)
 {
-    struct gb_plot_series series = {.ink = curve->ink, .marker = curve->marker};
+    double x[SAMPLES], y[SAMPLES];
+    struct gb_plot_series series = {
+        .x = x, .y = y, .count = SAMPLES, .ink = curve->ink, .marker = curve->marker};
     if (curve->row.kind == GB_PRESSURE_ROW_MEASURED) {
         draw_measured(view);
         return;
     }
     if (curve->row.kind == GB_PRESSURE_ROW_REPLICAS) {
-        const struct gb_plot_series fill = {.ink = GB_PLOT_INK_DIM};
-        for (int i = -GB_VIEW_BAND_LINES; i <= GB_VIEW_BAND_LINES; i++) {
-            draw_shifted(view, curve, (double)GB_VIEW_BAND_ERRORS * i / GB_VIEW_BAND_LINES,
-                         &fill);
-        }
+        draw_band(view, curve);
         series.spacing = REPLICA_SPACING;
     }
-    draw_shifted(view, curve, 0.0, &series);
+    shift(view, curve, 0.0, x, y);
+    gb_plot_line(&view->panel->plot, &series);
 }
 
 /* "+0.0103! mu 0.2" for each curve, then the bands and the pressure. */

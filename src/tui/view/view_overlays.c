@@ -95,25 +95,27 @@ static void shift_mean(const struct gb_view_curve *view, double errors,
 void gb_view_overlays_replicas(struct gb_view_curve *view)
 {
     const struct gb_runset_view_group *group = gb_view_curve_replicas(view);
-    double x[GB_RUNSET_VIEW_LEVELS];
+    double low[GB_RUNSET_VIEW_LEVELS], x[GB_RUNSET_VIEW_LEVELS];
     double y[GB_RUNSET_VIEW_LEVELS];
     char difference[GB_PARAMS_DIFF_TEXT + 2];
     char name[sizeof difference + 48];
     if (group == NULL) {
         return;
     }
-    struct gb_plot_series series = {.x = x,
-                                    .y = y,
-                                    .count = view->session->replica_band.runset.levels,
-                                    .ink = GB_PLOT_INK_DIM};
-    for (int i = -GB_VIEW_BAND_LINES; i <= GB_VIEW_BAND_LINES; i++) {
-        shift_mean(view, (double)GB_VIEW_BAND_ERRORS * i / GB_VIEW_BAND_LINES, x, y);
-        gb_plot_line(&view->panel->plot, &series);
-    }
+    const size_t count = view->session->replica_band.runset.levels;
+    shift_mean(view, -GB_VIEW_BAND_ERRORS, low, y);
+    shift_mean(view, GB_VIEW_BAND_ERRORS, x, y);
+    gb_plot_band(&view->panel->plot, &(struct gb_plot_band){.x = {low, x},
+                                                            .y = {y, y},
+                                                            .count = count,
+                                                            .ink = GB_PLOT_INK_DIM});
     shift_mean(view, 0.0, x, y);
-    series.ink = GB_VIEW_INK_REPLICAS;
-    series.marker = 'R';
-    series.spacing = REPLICA_SPACING;
+    const struct gb_plot_series series = {.x = x,
+                                          .y = y,
+                                          .count = count,
+                                          .ink = GB_VIEW_INK_REPLICAS,
+                                          .marker = 'R',
+                                          .spacing = REPLICA_SPACING};
     write_difference(view->session, &view->session->replica_band.params, difference,
                      sizeof difference);
     snprintf(name, sizeof name, "mean of %zu %s%s%s", group->members,
