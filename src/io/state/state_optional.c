@@ -182,8 +182,8 @@ bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
     }
     for (int k = 0; k < NUMBERS && done; k++) {
         const void *value = (const char *)state + numbers[k].member;
-        done = gb_hdf_put_numbers(file, numbers[k].name, GB_HDF_DOUBLE, numbers[k].count,
-                                  value, err);
+        done = gb_hdf_attributes_put_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
+                                             numbers[k].count, value, err);
     }
     for (int k = 0; k < ROWS && done; k++) {
         const struct gb_hdf_array shape = shape_of(state, &rows[k]);
@@ -236,8 +236,8 @@ static void read_numbers(struct gb_state *state, struct gb_hdf *file)
 {
     for (int k = 0; k < NUMBERS; k++) {
         double value[NUMBER_MAX];
-        bool good = gb_hdf_get_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
-                                       numbers[k].count, value, NULL);
+        bool good = gb_hdf_attributes_get_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
+                                                  numbers[k].count, value, NULL);
         for (int c = 0; c < numbers[k].count && good; c++) {
             good = value[c] >= numbers[k].low && value[c] <= numbers[k].high;
         }
