@@ -44,10 +44,15 @@ told "X again stops it" 'chart: \(cancelled\|stopped\)'
 keys 0
 keys End
 shows "what was measured stays" 'Enter applies'
-# the costliest one that was measured, as the message has it
-tolerance=$(screen | tail -n 4 | tr '\n' ' ' | sed -n 's/.*tolerance \([0-9.e-]*\),.*/\1/p')
 keys Enter
 told "Enter applies the setting" 'setting of the chart: '
+# the costliest one that was measured, as the event has it: the message may be that of the
+# cursor before
+term resize-window -x 200 -y 60
+until_true has '│ [^│]*tolerance [0-9.e-]*,'
+tolerance=$(screen | sed -n 's/.*│ [^│]*tolerance \([0-9.e-]*\),.*/\1/p' | tail -n 1)
+term resize-window -x 80 -y 24
+until_true fits_80
 go_to tolerance
 is "to the parameters" until_true has "tolerance  *$tolerance "
 keys u
