@@ -264,34 +264,6 @@ static void test_filling_steps(void)
     gb_experiment_destroy(experiment);
 }
 
-/* Powder that is thrown up by 0.03 d under the lower gravity settles in fewer steps than one
- * flight takes, some 18000: it stops where gravity slows it. */
-static void test_settling(void)
-{
-    struct gb_error err = {0};
-    const struct gb_params params = die_params(NULL);
-    struct gb_experiment *experiment = NULL;
-    GString *events = g_string_new(NULL);
-    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    while (!strstr(events->str, "gravity eased")) {
-        g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_STEP_MORE);
-        take_events(experiment, events);
-    }
-    struct gb_bed *bed = experiment->loading->bed;
-    for (int64_t i = 0; i < bed->count; i++) {
-        bed->velocity[i][2] = 3e-6;
-    }
-    while (gb_experiment_advance(experiment, 1000, &err) == GB_STEP_MORE) {
-    }
-    take_events(experiment, events);
-    const char *from = events->str;
-    const int64_t steps = steps_of(events, "settled", &from);
-    g_test_message("%d steps", (int)steps);
-    g_assert_cmpint(steps, <, 5000);
-    g_string_free(events, TRUE);
-    gb_experiment_destroy(experiment);
-}
-
 /* What does not fit is refused before any work, naming the key. */
 static void test_refused(void)
 {
@@ -483,7 +455,6 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/die/whole", test_whole);
     g_test_add_func("/die/filling_steps", test_filling_steps);
-    g_test_add_func("/die/settling", test_settling);
     g_test_add_func("/die/same_bits", test_same_bits);
     g_test_add_func("/die/stages", test_stages);
     g_test_add_func("/die/clogged", test_clogged);

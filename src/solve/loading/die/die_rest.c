@@ -1,7 +1,6 @@
 #include "solve/loading/die/die_rest.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "scene/tolerances.h"
 
@@ -92,26 +91,6 @@ bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed)
     }
     now->checks_at_rest = at_rest(stages, bed) ? now->checks_at_rest + 1 : 0;
     return now->checks_at_rest >= GB_REST_CHECKS;
-}
-
-/* Of contacts and gravity on the motion. */
-static double power(const struct gb_bed *bed, double gravity)
-{
-    double sum = 0.0;
-    for (int64_t i = 0; i < bed->count; i++) {
-        const double *f = bed->force[i], *v = bed->velocity[i];
-        sum += f[0] * v[0] + f[1] * v[1] + (f[2] - bed->mass[i] * gravity) * v[2];
-    }
-    return sum;
-}
-
-void gb_die_rest_damp(const struct gb_die_stages *stages, struct gb_bed *bed)
-{
-    if (power(bed, stages->now.leapfrog.gravity) < 0.0) {
-        const size_t rows = (size_t)bed->count;
-        memset(bed->velocity, 0, rows * sizeof *bed->velocity);
-        memset(bed->spin, 0, rows * sizeof *bed->spin);
-    }
 }
 
 bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err)

@@ -27,11 +27,6 @@ int64_t gb_die_rest_in_funnel(const struct gb_bed *bed);
  * found the powder at rest. */
 bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed);
 
-/* After a step of powder that settles: no particle moves on where contacts and gravity slow
- * the motion as a whole.  It goes down to equilibrium and does not swing through it; contacts
- * keep their history.  Source: quenched dynamics (quickmin). */
-void gb_die_rest_damp(const struct gb_die_stages *stages, struct gb_bed *bed);
-
 /* Checks that all particles at rest lie in the die.  Errors: GB_ERR_GUARD naming how many are
  * left in the funnel. */
 bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err);

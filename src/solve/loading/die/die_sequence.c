@@ -154,7 +154,7 @@ static enum gb_die_sequence_state check_ease(struct gb_die_stages *stages,
         return GB_DIE_SEQUENCE_CONTINUES;
     }
     write_stage_event(stages, "gravity eased", text, size);
-    now->leapfrog.drag = 0.0;
+    now->leapfrog.drag = rest_drag(scene, now->leapfrog.gravity);
     gb_die_sequence_enter(stages, GB_DIE_STAGES_SETTLE);
     return GB_DIE_SEQUENCE_ENDED;
 }
@@ -163,7 +163,6 @@ static enum gb_die_sequence_state check_settle(struct gb_die_stages *stages,
                                                struct gb_bed *bed, char *text,
                                                size_t size, struct gb_error *err)
 {
-    gb_die_rest_damp(stages, bed);
     if (!gb_die_rest_lasts(stages, bed)) {
         return still_moves(stages, bed, err);
     }
