@@ -178,7 +178,7 @@ struct gb_params {
     double die_height_m;   /* of the funnel's outlet over the floor; NaN: auto */
     double die_outlet_m;   /* diameter of the outlet; NaN: auto */
     double die_angle_deg;  /* of the funnel's wall to the axis */
-    double fill_gravity;   /* in g = 9.80665 m/s2, while filling ... */
+    double fill_gravity;   /* in g = 9.80665 m/s2, while pouring ... */
     double rest_gravity;   /* ... and from then on */
     double gravity_ramp_s; /* time from one to the other */
     double flatten_m;

@@ -61,7 +61,7 @@ struct gb_die_scene {
     double outlet;         /* radius of the funnel's opening */
     double angle;          /* of the funnel's wall to the axis, rad */
     double loose_density;  /* density of the powder placed in the funnel */
-    double fill_gravity;   /* until the flattened powder is at rest */
+    double fill_gravity;   /* while pouring */
     double gravity;        /* at rest and in pressing */
     double gravity_ramp;   /* time from one to the other */
     double flatten_travel; /* of the punch, from its first contact */

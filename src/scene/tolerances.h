@@ -339,8 +339,7 @@
 #define GB_PUNCH_FOLLOWS_MIN 0.25
 
 /* Time constants of a drag on the powder while gravity is reduced and after it, as shares
- * of the time of the reduction; the second is that under gravity at rest and goes with one
- * over the root of a higher one.  Without drag a bed of smooth spheres rotates about the
+ * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the
  * axis of the die without end: spheres at the wall roll, and no friction stops the others.
  * Stronger: loose particles take long to fall. */
 #define GB_GRAVITY_RAMP_DRAG 0.1

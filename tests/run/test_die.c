@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include <glib.h>
@@ -9,7 +8,6 @@
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/experiment_private.h"
-#include "scene/tolerances.h"
 
 enum { POINTS_MOST = 64 };
 
@@ -219,51 +217,6 @@ static void test_straggler(void)
     gb_experiment_destroy(experiment);
 }
 
-/* Steps of a stage, from its event; the events stand in the order of the stages. */
-static int64_t steps_of(const GString *events, const char *stage, const char **from)
-{
-    double us = 0.0;
-    int64_t steps = 0;
-    char *form = g_strdup_printf("%s after %%lf us, %%" G_GINT64_FORMAT " steps", stage);
-    const char *line = strstr(*from, stage);
-    if (!line || sscanf(line, form, &us, &steps) != 2) {
-        g_error("%s: no such event behind the others in\n%s", stage, events->str);
-    }
-    *from = line;
-    g_free(form);
-    return steps;
-}
-
-/* Powder is flattened and comes to rest under the gravity of filling, in fewer steps than it
- * is poured in; it rests under the lower gravity when it is pressed. */
-static void test_filling_steps(void)
-{
-    static const char *const stages[] = {"flattened", "at rest", "gravity eased",
-                                         "settled"};
-    struct gb_error err = {0};
-    const struct gb_params params = die_params(NULL);
-    struct gb_experiment *experiment = NULL;
-    GString *events = g_string_new(NULL);
-    int64_t after = 0;
-    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_POINT) {
-    }
-    take_events(experiment, events);
-    const char *from = events->str;
-    const int64_t poured = steps_of(events, "poured", &from);
-    for (size_t k = 0; k < G_N_ELEMENTS(stages); k++) {
-        after += steps_of(events, stages[k], &from);
-    }
-    g_test_message("%d steps of pouring, %d until pressing", (int)poured, (int)after);
-    g_assert_cmpint(after, <, poured);
-    const struct gb_bed *bed = experiment->loading->bed;
-    const double gravity = experiment->model->die.gravity;
-    const double weight = gravity * gb_bed_solid_volume(bed) / (M_PI / 6.0);
-    g_assert_cmpfloat(gb_bed_kinetic_energy(bed).translational, <, GB_REST_FALL * weight);
-    g_string_free(events, TRUE);
-    gb_experiment_destroy(experiment);
-}
-
 /* What does not fit is refused before any work, naming the key. */
 static void test_refused(void)
 {
@@ -454,7 +407,6 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/die/whole", test_whole);
-    g_test_add_func("/die/filling_steps", test_filling_steps);
     g_test_add_func("/die/same_bits", test_same_bits);
     g_test_add_func("/die/stages", test_stages);
     g_test_add_func("/die/clogged", test_clogged);

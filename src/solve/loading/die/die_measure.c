@@ -42,6 +42,23 @@ static void pour(const struct gb_die_stages *stages, const struct gb_bed *bed,
     set_rest(stages, bed, report);
 }
 
+static void ease(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                 struct gb_stage_report *report)
+{
+    (void)bed;
+    report->stage = GB_STAGE_EASING;
+    set(report, GB_STAGE_MEASURE_GRAVITY,
+        stages->now.leapfrog.gravity / stages->scene.gravity, 1.0,
+        stages->now.stage_time / stages->scene.gravity_ramp);
+}
+
+static void settle(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                   struct gb_stage_report *report)
+{
+    report->stage = GB_STAGE_RESETTLING;
+    set_rest(stages, bed, report);
+}
+
 static void flatten(const struct gb_die_stages *stages, const struct gb_bed *bed,
                     struct gb_stage_report *report)
 {
@@ -65,23 +82,6 @@ static void rest(const struct gb_die_stages *stages, const struct gb_bed *bed,
                  struct gb_stage_report *report)
 {
     report->stage = GB_STAGE_RESTING;
-    set_rest(stages, bed, report);
-}
-
-static void ease(const struct gb_die_stages *stages, const struct gb_bed *bed,
-                 struct gb_stage_report *report)
-{
-    (void)bed;
-    report->stage = GB_STAGE_EASING;
-    set(report, GB_STAGE_MEASURE_GRAVITY,
-        stages->now.leapfrog.gravity / stages->scene.gravity, 1.0,
-        stages->now.stage_time / stages->scene.gravity_ramp);
-}
-
-static void settle(const struct gb_die_stages *stages, const struct gb_bed *bed,
-                   struct gb_stage_report *report)
-{
-    report->stage = GB_STAGE_RESETTLING;
     set_rest(stages, bed, report);
 }
 
@@ -112,11 +112,11 @@ static const struct row {
     enum gb_stage stage;
 } rows[GB_DIE_STAGES_COUNT] = {
     [GB_DIE_STAGES_POUR] = {pour, GB_STAGE_NONE},
+    [GB_DIE_STAGES_EASE] = {ease, GB_STAGE_NONE},
+    [GB_DIE_STAGES_SETTLE] = {settle, GB_STAGE_NONE},
     [GB_DIE_STAGES_FLATTEN] = {flatten, GB_STAGE_NONE},
     [GB_DIE_STAGES_LIFT] = {lift, GB_STAGE_NONE},
     [GB_DIE_STAGES_REST] = {rest, GB_STAGE_NONE},
-    [GB_DIE_STAGES_EASE] = {ease, GB_STAGE_NONE},
-    [GB_DIE_STAGES_SETTLE] = {settle, GB_STAGE_NONE},
     [GB_DIE_STAGES_PRESS] = {NULL, GB_STAGE_PRESS},
     [GB_DIE_STAGES_UNLOAD] = {NULL, GB_STAGE_UNLOADING},
     [GB_DIE_STAGES_WITHDRAW] = {NULL, GB_STAGE_WITHDRAWAL},
@@ -193,16 +193,16 @@ double gb_die_measure_progress(const struct gb_die_stages *stages,
                                const struct gb_bed *bed)
 {
     static const double pressed[GB_STAGES + 1] = {
-        [GB_STAGE_FILLING] = 0.0,     [GB_STAGE_SETTLING] = 0.34,
-        [GB_STAGE_FLATTENING] = 0.43, [GB_STAGE_LIFTING] = 0.46,
-        [GB_STAGE_RESTING] = 0.47,    [GB_STAGE_EASING] = 0.51,
-        [GB_STAGE_RESETTLING] = 0.60, [GB_STAGE_PRESS] = 0.62,
+        [GB_STAGE_FILLING] = 0.0,     [GB_STAGE_SETTLING] = 0.12,
+        [GB_STAGE_EASING] = 0.15,     [GB_STAGE_RESETTLING] = 0.18,
+        [GB_STAGE_FLATTENING] = 0.32, [GB_STAGE_LIFTING] = 0.45,
+        [GB_STAGE_RESTING] = 0.48,    [GB_STAGE_PRESS] = 0.8,
         [GB_STAGE_UNLOADING] = 1.0,
     };
     static const double full[GB_STAGES + 1] = {
-        [GB_STAGE_PRESS] = 0.08,      [GB_STAGE_UNLOADING] = 0.21,
-        [GB_STAGE_WITHDRAWAL] = 0.34, [GB_STAGE_CONFINED] = 0.37,
-        [GB_STAGE_EJECTION] = 0.47,   [GB_STAGE_EJECTED] = 0.92,
+        [GB_STAGE_PRESS] = 0.3,   [GB_STAGE_UNLOADING] = 0.4,
+        [GB_STAGE_WITHDRAWAL] = 0.5, [GB_STAGE_CONFINED] = 0.52,
+        [GB_STAGE_EJECTION] = 0.6,   [GB_STAGE_EJECTED] = 0.94,
         [GB_STAGES] = 1.0,
     };
     struct gb_stage_report now = {0};

@@ -18,16 +18,9 @@ void gb_die_sequence_enter(struct gb_die_stages *stages, enum gb_die_stages_stag
 
 /* Speed of the flattening punch (d/T): a particle thrown up at it rises by a quarter of
  * GB_FLATTEN_RISE. */
-static double flatten_speed(double gravity)
+static double flatten_speed(const struct gb_die_scene *scene)
 {
-    return 0.5 * sqrt(2.0 * gravity * GB_FLATTEN_RISE);
-}
-
-/* Drag of powder that comes to rest.  Rigid particles move alike under any gravity, by times
- * that go with its root: so does that of the drag. */
-static double rest_drag(const struct gb_die_scene *scene, double gravity)
-{
-    return sqrt(gravity / scene->gravity) / (GB_REST_DRAG * scene->gravity_ramp);
+    return 0.5 * sqrt(2.0 * scene->gravity * GB_FLATTEN_RISE);
 }
 
 static void begin_flatten(struct gb_die_stages *stages, struct gb_bed *bed)
@@ -35,7 +28,7 @@ static void begin_flatten(struct gb_die_stages *stages, struct gb_bed *bed)
     bed->die.funnel = false;
     bed->die.punch = true;
     bed->die.punch_position = stages->now.punch_from = gb_bed_top(bed);
-    bed->die.punch_velocity = -flatten_speed(stages->now.leapfrog.gravity);
+    bed->die.punch_velocity = -flatten_speed(&stages->scene);
     gb_bed_invalidate_lists(bed);
     gb_die_sequence_enter(stages, GB_DIE_STAGES_FLATTEN);
 }
@@ -87,7 +80,40 @@ static enum gb_die_sequence_state check_pour(struct gb_die_stages *stages,
         return GB_DIE_SEQUENCE_FAILED;
     }
     write_stage_event(stages, "poured", text, size);
-    stages->now.leapfrog.drag = rest_drag(&stages->scene, stages->now.leapfrog.gravity);
+    stages->now.leapfrog.drag = 1.0 / (GB_GRAVITY_RAMP_DRAG * stages->scene.gravity_ramp);
+    gb_die_sequence_enter(stages, GB_DIE_STAGES_EASE);
+    return GB_DIE_SEQUENCE_ENDED;
+}
+
+static enum gb_die_sequence_state check_ease(struct gb_die_stages *stages,
+                                             struct gb_bed *bed, char *text, size_t size,
+                                             struct gb_error *err)
+{
+    const struct gb_die_scene *scene = &stages->scene;
+    struct gb_die_progress *now = &stages->now;
+    (void)bed;
+    (void)err;
+    now->leapfrog.gravity =
+        scene->fill_gravity *
+        gb_portable_pow(scene->gravity / scene->fill_gravity,
+                        fmin(now->stage_time / scene->gravity_ramp, 1.0));
+    if (now->stage_time < scene->gravity_ramp) {
+        return GB_DIE_SEQUENCE_CONTINUES;
+    }
+    write_stage_event(stages, "gravity eased", text, size);
+    now->leapfrog.drag = 1.0 / (GB_REST_DRAG * scene->gravity_ramp);
+    gb_die_sequence_enter(stages, GB_DIE_STAGES_SETTLE);
+    return GB_DIE_SEQUENCE_ENDED;
+}
+
+static enum gb_die_sequence_state check_settle(struct gb_die_stages *stages,
+                                               struct gb_bed *bed, char *text,
+                                               size_t size, struct gb_error *err)
+{
+    if (!gb_die_rest_lasts(stages, bed)) {
+        return still_moves(stages, bed, err);
+    }
+    write_stage_event(stages, "settled", text, size);
     begin_flatten(stages, bed);
     return GB_DIE_SEQUENCE_ENDED;
 }
@@ -133,40 +159,6 @@ static enum gb_die_sequence_state check_rest(struct gb_die_stages *stages,
         return still_moves(stages, bed, err);
     }
     write_stage_event(stages, "at rest", text, size);
-    stages->now.leapfrog.drag = 1.0 / (GB_GRAVITY_RAMP_DRAG * stages->scene.gravity_ramp);
-    gb_die_sequence_enter(stages, GB_DIE_STAGES_EASE);
-    return GB_DIE_SEQUENCE_ENDED;
-}
-
-static enum gb_die_sequence_state check_ease(struct gb_die_stages *stages,
-                                             struct gb_bed *bed, char *text, size_t size,
-                                             struct gb_error *err)
-{
-    const struct gb_die_scene *scene = &stages->scene;
-    struct gb_die_progress *now = &stages->now;
-    (void)bed;
-    (void)err;
-    now->leapfrog.gravity =
-        scene->fill_gravity *
-        gb_portable_pow(scene->gravity / scene->fill_gravity,
-                        fmin(now->stage_time / scene->gravity_ramp, 1.0));
-    if (now->stage_time < scene->gravity_ramp) {
-        return GB_DIE_SEQUENCE_CONTINUES;
-    }
-    write_stage_event(stages, "gravity eased", text, size);
-    now->leapfrog.drag = rest_drag(scene, now->leapfrog.gravity);
-    gb_die_sequence_enter(stages, GB_DIE_STAGES_SETTLE);
-    return GB_DIE_SEQUENCE_ENDED;
-}
-
-static enum gb_die_sequence_state check_settle(struct gb_die_stages *stages,
-                                               struct gb_bed *bed, char *text,
-                                               size_t size, struct gb_error *err)
-{
-    if (!gb_die_rest_lasts(stages, bed)) {
-        return still_moves(stages, bed, err);
-    }
-    write_stage_event(stages, "settled", text, size);
     return gb_die_sequence_begin_press(stages, bed, err) ? GB_DIE_SEQUENCE_ENDED
                                                          : GB_DIE_SEQUENCE_FAILED;
 }
@@ -175,9 +167,9 @@ static enum gb_die_sequence_state check_settle(struct gb_die_stages *stages,
 static enum gb_die_sequence_state (*const checks[GB_DIE_STAGES_COUNT])(
     struct gb_die_stages *stages, struct gb_bed *bed, char *text, size_t size,
     struct gb_error *err) = {
-    [GB_DIE_STAGES_POUR] = check_pour, [GB_DIE_STAGES_FLATTEN] = check_flatten,
-    [GB_DIE_STAGES_LIFT] = check_lift, [GB_DIE_STAGES_REST] = check_rest,
-    [GB_DIE_STAGES_EASE] = check_ease, [GB_DIE_STAGES_SETTLE] = check_settle,
+    [GB_DIE_STAGES_POUR] = check_pour,     [GB_DIE_STAGES_EASE] = check_ease,
+    [GB_DIE_STAGES_SETTLE] = check_settle, [GB_DIE_STAGES_FLATTEN] = check_flatten,
+    [GB_DIE_STAGES_LIFT] = check_lift,     [GB_DIE_STAGES_REST] = check_rest,
 };
 
 enum gb_die_sequence_state gb_die_sequence_check(struct gb_die_stages *stages,

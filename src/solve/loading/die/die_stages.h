@@ -10,20 +10,19 @@
 #include "scene/model.h"
 #include "solve/step_outcome.h"
 
-/* P3's experiment: powder falls through a funnel into the die, is flattened by a punch that
- * is lifted again, settles, and is pressed.  Gravity is raised until the flattened powder is
- * at rest, and reduced then: a fall by 0.1 mm would take a hundred times the time of pressing,
- * and so would the rearrangement of what the punch has loosened.  Steps of
+/* P3's experiment: powder falls through a funnel into the die, settles, is flattened by a
+ * punch that is lifted again, and pressed.  Gravity is raised while it falls and reduced
+ * afterwards: a fall by 0.1 mm would take a hundred times the time of pressing.  Steps of
  * gb_leapfrog between recorded points, with guards.  The bed belongs to the caller. */
 struct gb_die_stages;
 
 enum gb_die_stages_stage {
     GB_DIE_STAGES_POUR,    /* until nothing is left in the funnel */
+    GB_DIE_STAGES_EASE,    /* gravity down to its value at rest */
+    GB_DIE_STAGES_SETTLE,  /* until the powder is at rest */
     GB_DIE_STAGES_FLATTEN, /* punch down by a little, slowly */
     GB_DIE_STAGES_LIFT,    /* and up again */
-    GB_DIE_STAGES_REST,    /* until the powder is at rest */
-    GB_DIE_STAGES_EASE,    /* gravity down to its value at rest */
-    GB_DIE_STAGES_SETTLE,  /* until the powder is at rest: its height is H0 */
+    GB_DIE_STAGES_REST,    /* until the powder is at rest: its height is H0 */
     GB_DIE_STAGES_PRESS,   /* the punch carries the pressure of the ramp */
     GB_DIE_STAGES_OVER,
     /* A full cycle goes on instead, solve/loading/die/die_cycle.h; the numbers are in
