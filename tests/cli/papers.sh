@@ -85,7 +85,7 @@ is 'and says so' grep -q -e '--paper: the papers print no number' stderr
 refused 'no directory' '--out' "$greenbody" papers
 refused 'an unknown experiment' 'accepted P1' "$greenbody" papers --only P4 --out out
 refused 'a word too many' 'options only' "$greenbody" papers P1 --out out
-refused 'too few particles' '--count 3: accepted' "$greenbody" papers --count 3 --out out
+refused 'too few particles' '--count 3: must be between 50' "$greenbody" papers --count 3 --out out
 refused 'an experiment that this size leaves out' 'no cells' \
     "$greenbody" papers --fast --only P2-v5 --out out
 in_patience "$greenbody" papers --only P1-fig5 --count 120 --cells 2 --out one >stdout 2>stderr

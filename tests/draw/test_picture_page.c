@@ -182,7 +182,7 @@ static void test_print_size(void)
 
 /* Rows of ink in some columns of an image, one below the other: the shortest run, pixels. */
 static int shortest_glyph(const struct gb_image *image, double left, double right,
-                           double top, double bottom)
+                          double top, double bottom)
 {
     int shortest = 10000, run = 0, glyphs = 0;
     for (int y = (int)top; y < (int)bottom; y++) {
@@ -221,12 +221,12 @@ static void test_glyph_height(void)
         struct gb_image *image = small_packing_paint(&packing_image, state);
         struct gb_scene *scene = small_packing_scene(&packing_image, state, &layout);
         const double ticks = layout.bar.left + layout.bar.width + 0.5 * layout.unit;
-        const int heights[] = {
-            shortest_glyph(image, ticks, ticks + 0.9 * layout.unit, layout.bar.top,
-                            layout.bar.top + layout.bar.height),
-            shortest_glyph(image, 1.4 * layout.unit, layout.axes.left,
-                            image->height - 3.8 * layout.unit,
-                            image->height - 2.1 * layout.unit)};
+        const int heights[] = {shortest_glyph(image, ticks, ticks + 0.9 * layout.unit,
+                                              layout.bar.top,
+                                              layout.bar.top + layout.bar.height),
+                               shortest_glyph(image, 1.4 * layout.unit, layout.axes.left,
+                                              image->height - 3.8 * layout.unit,
+                                              image->height - 2.1 * layout.unit)};
         for (size_t k = 0; k < G_N_ELEMENTS(heights); k++) {
             g_test_message("%d pixels: %.2f points", heights[k],
                            heights[k] / digit * 72.0 / per_inch);
@@ -270,11 +270,11 @@ static void test_print_size_refused(void)
         int per_inch;
         const char *text;
     } wrong[] = {
-        {"8", 300, "8cm, 80mm, 3.3in"},      {"8 m", 300, "2.54 to 50 cm"},
-        {"1mm", 300, "2.54 to 50 cm"},       {"8cm", 50, "100 to 1200"},
+        {"8", 300, "8cm, 80mm, 3.3in"},      {"8 m", 300, "2.54 and 50 cm"},
+        {"1mm", 300, "2.54 and 50 cm"},      {"8cm", 50, "100 and 1200"},
         {"elsevier-3", 300, "elsevier-1.5"}, {"rsc-1.5", 300, "plot --help lists"},
         {"elsevier90", 300, "elsevier-1.5"}, {"", 300, "8cm"},
-        {"-8cm", 300, "2.54 to 50 cm"},      {"50cm", 1200, "accepted 16384"}};
+        {"-8cm", 300, "2.54 and 50 cm"},     {"50cm", 1200, "16384"}};
     for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
         struct gb_print_size size;
         struct gb_error err = {0};

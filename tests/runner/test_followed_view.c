@@ -25,10 +25,12 @@ static void wait_for_points(struct gb_runner *runner, size_t points)
     }
 }
 
-/* Writes the present state to state.h5, and waits for it. */
+/* Writes the present state to state.h5, and waits for it; the run pauses, so that none
+ * follows. */
 static void store(struct gb_runner *runner)
 {
     const gint64 from = g_get_monotonic_time();
+    g_assert_true(gb_runner_send(runner, GB_COMMAND_PAUSE));
     const int64_t before = gb_runner_stored(runner);
     g_assert_true(gb_runner_send(runner, GB_COMMAND_STORE));
     while (gb_runner_stored(runner) == before) {
@@ -82,6 +84,7 @@ static void test_states(void)
     state[0] = read_state(&run_dir);
     g_assert_true(gb_runner_follow(&follower, run_dir.directory, &err));
     wait_for_view(follower, state[0]);
+    g_assert_true(gb_runner_send(runner, GB_COMMAND_RESUME));
     wait_for_points(runner, gb_curve_count(gb_runner_curve(runner)) + 5);
     store(runner);
     state[1] = read_state(&run_dir);

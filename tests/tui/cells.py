@@ -384,6 +384,9 @@ class Walk:
         self.terminal.until_shown('Esc leaves')
         for cols, lines in SIZES:
             self.terminal.resize(cols, lines, 'Esc leaves')
+            # a frame of the size before, which tmux has cropped, ends with the keys, too
+            self.terminal.until(lambda rows: re.search('live, .*B *$', rows[0]),
+                                'the size at the end of the header')
             self.check('list of runs', cols, lines, last='Esc leaves')
         self.terminal.end('Escape')
 
