@@ -17,11 +17,19 @@ enum { MARGIN = 8 << 20 };     /* left for small pieces */
 /* Beyond this an image is a mapped file, which grows by FILE_STEP. */
 enum { IMAGE_MAX = 2 << 20, FILE_STEP = 2 << 20 };
 
-bool gb_hdf_memory_left(void)
+/* Whether there is room for so much more, and for small pieces, without which HDF5 ends the
+ * program. */
+static bool left_beside(size_t size)
 {
-    void *volatile margin = malloc(MARGIN); /* volatile: or compilers leave both out */
+    void *volatile margin =
+        malloc(size + MARGIN); /* volatile: or compilers leave both out */
     free(margin);
     return margin != NULL;
+}
+
+bool gb_hdf_memory_left(void)
+{
+    return left_beside(0);
 }
 
 /* The memory of a file under construction.  H5Fget_file_image would copy it, and in 1.10
@@ -81,6 +89,9 @@ static void *give_up_file(struct gb_hdf_memory *memory)
 static void *move_to_file(struct gb_hdf_memory *memory, void *image, size_t size)
 {
     const size_t room = file_room(size);
+    if (!left_beside(room)) {
+        return NULL;
+    }
     memory->name = g_strdup_printf("%s.XXXXXX", memory->path);
     memory->fd = g_mkstemp_full(memory->name, O_RDWR | O_CLOEXEC, 0666);
     if (memory->fd < 0 || !reserve_blocks(memory, 0, room)) {
@@ -103,7 +114,8 @@ static void *grow_file(struct gb_hdf_memory *memory, size_t size)
 {
     const size_t room = file_room(size);
     if (room > memory->room) {
-        if (!reserve_blocks(memory, memory->room, room)) {
+        if (!left_beside(room - memory->room) ||
+            !reserve_blocks(memory, memory->room, room)) {
             return NULL; /* with a fault */
         }
         void *mapped = mremap(memory->mapped, memory->room, room, MREMAP_MAYMOVE);
