@@ -203,6 +203,10 @@ static bool write_array(struct gb_hdf *file, hid_t set, const struct gb_hdf_arra
 bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                       const void *data, struct gb_error *err)
 {
+    if (!gb_hdf_memory_left()) { /* others have taken it since the file was made */
+        return gb_error_set(err, GB_ERR_MEMORY, "%s: out of memory for a state",
+                            file->path);
+    }
     gb_hdf_mute();
     const hsize_t shape[2] = {(hsize_t)array->rows, (hsize_t)array->columns};
     const int rank = array->columns > 1 ? 2 : 1;
