@@ -41,7 +41,8 @@ bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
                           struct gb_error *err);
 
 /* Computes the record up to the last point; the bits are those of a record taken there.
- * Nothing is done while it is written.  Where the run cannot be repeated, the record stays: a checkpoint some points before.
+ * Nothing is done while it is written.  Where the run cannot be repeated, the record stays:
+ * a checkpoint some points before.
  * Errors: GB_ERR_MEMORY. */
 bool gb_held_record_catch_up(struct gb_held_record *held, struct gb_error *err);
 
