@@ -110,6 +110,7 @@ shows "and shows it" 'Parameters'
 keys t
 told "t takes it back" 'continues here'
 leaves "and quits it"
+is "the engine that is taken over ends by itself" until_true listed '^default-1  *stopped '
 start runs
 shows "past ones stay listed" '^default-1  *stopped '
 shows "the detached ones first" '^second  *detached\|^first  *detached'

@@ -22,6 +22,14 @@ void gb_moduli_job_finish(struct gb_moduli_job *job)
     memset(job, 0, sizeof *job);
 }
 
+/* Why there is no state, of a run that has ended. */
+static const char *why_none(const struct gb_runner *runner)
+{
+    return gb_curve_count(gb_runner_curve(runner)) > 0
+               ? "the last state is still being stored: Y again in a moment"
+               : "the run has no recorded point yet";
+}
+
 static bool start_command(struct gb_moduli_job *job, const struct gb_runner *runner,
                           struct gb_child_command *child, struct gb_error *err)
 {
@@ -33,8 +41,7 @@ static bool start_command(struct gb_moduli_job *job, const struct gb_runner *run
     g_free(state);
     job->waits_for = NULL;
     const bool good =
-        (stored ||
-         gb_error_set(err, GB_ERR_INPUT, "the run has no recorded point yet")) &&
+        (stored || gb_error_set(err, GB_ERR_INPUT, "%s", why_none(runner))) &&
         gb_child_command_start(child, name, path, GB_CHILD_COMMAND_QUIET, words, err);
     g_free(path);
     return good;
