@@ -188,10 +188,11 @@ static void on_progress(void *data, struct gb_simulation *simulation, double sha
     gb_runner_publish_if_due(runner, GB_RUN_RUNNING);
 }
 
+/* The end itself is published once the last files are there: what is done can be pictured,
+ * reported and measured at once. */
 static void on_end(void *data)
 {
     gb_runner_publish_view(data); /* first, so that it is there with the state */
-    gb_runner_publish_snapshot(data);
 }
 
 /* The run of a workbench continues without its directory. */
@@ -285,7 +286,7 @@ void *gb_engine_thread(void *data)
     }
     gb_runner_publish_state(runner, GB_RUN_RUNNING);
     (void)gb_simulation_advance(runner->simulation, INT64_MAX, &err); /* in the snapshot */
-    gb_runner_publish_snapshot(runner); /* with an event of the last files */
+    gb_runner_publish_snapshot(runner);
     gb_simulation_release(runner->simulation);
     return NULL;
 }

@@ -1,7 +1,11 @@
 #include <glib.h>
 #include <string.h>
 
+#include "common/patience.h"
+#include "common/run_directory.h"
+#include "common/scene.h"
 #include "runner/publish.h"
+#include "runner/runner.h"
 
 /* Two threads hammer the buffer; built with -Db_sanitize=thread this also proves that the
  * atomics are enough. */
@@ -121,6 +125,33 @@ static void test_ring_is_bounded(void)
     g_assert_true(gb_command_ring_push(&ring, stop));
 }
 
+/* Once a run is seen to have ended, its last files are there: what is done with it next
+ * reads them. */
+static void test_end_is_stored(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=400", "loading.until=density = 0.27",
+                     "numerics.fidelity=fast", "numerics.threads=1", NULL);
+    struct run_directory run_dir = run_directory_make("run");
+    struct gb_runner *runner = NULL;
+    struct gb_error err = {0};
+    const gint64 from = g_get_monotonic_time();
+    char *status = g_build_filename(run_dir.directory, "status.json", NULL), *text = NULL;
+    g_assert_true(gb_runner_create_in(&runner, &params, run_dir.directory, &err));
+    while (gb_runner_snapshot(runner, NULL)->state < GB_RUN_DONE) {
+        patience_check(from, "the end of the run");
+    }
+    const bool stored = g_file_test(run_dir.state, G_FILE_TEST_EXISTS);
+    g_assert_true(g_file_get_contents(status, &text, NULL, NULL));
+    g_assert_cmpint(gb_runner_snapshot(runner, NULL)->state, ==, GB_RUN_DONE);
+    g_assert_true(stored);
+    g_assert_nonnull(strstr(text, "\"done\""));
+    gb_runner_destroy(runner);
+    g_free(text);
+    g_free(status);
+    run_directory_finish(&run_dir);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -128,5 +159,6 @@ int main(int argc, char **argv)
     g_test_add_func("/run/publish/newest-wins", test_newest_wins);
     g_test_add_func("/run/publish/commands", test_commands);
     g_test_add_func("/run/publish/ring-is-bounded", test_ring_is_bounded);
+    g_test_add_func("/run/publish/end-is-stored", test_end_is_stored);
     return g_test_run();
 }

@@ -23,7 +23,6 @@ start "default particles.count=300 numerics.fidelity=fast 'output.snapshots_at=d
 shows 'a packing of 300 is pressed' 'done'
 keys S
 shows 'without moduli the view names the key' 'no moduli yet: Y measures'
-is 'its last state is stored' until_true test -e "$(run_directory)/state.h5"
 sums >"$here/before"
 keys Y
 shows 'Y measures in the background' 'measuring'

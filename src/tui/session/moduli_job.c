@@ -22,18 +22,9 @@ void gb_moduli_job_finish(struct gb_moduli_job *job)
     memset(job, 0, sizeof *job);
 }
 
-/* Why there is no state, of a run that has ended. */
-static const char *why_none(const struct gb_runner *runner)
-{
-    return gb_curve_count(gb_runner_curve(runner)) > 0
-               ? "the last state is still being stored: Y again in a moment"
-               : "the run has no recorded point yet";
-}
-
-static bool start_command(struct gb_moduli_job *job, const struct gb_runner *runner,
+static bool start_command(struct gb_moduli_job *job, const char *directory,
                           struct gb_child_command *child, struct gb_error *err)
 {
-    const char *directory = gb_runner_directory(runner);
     char *path = g_build_filename(directory, GB_MODULI_STATES_FILE, NULL);
     const char *const words[] = {name, directory, "--out", directory, NULL};
     char *state = g_build_filename(directory, "state.h5", NULL);
@@ -41,7 +32,7 @@ static bool start_command(struct gb_moduli_job *job, const struct gb_runner *run
     g_free(state);
     job->waits_for = NULL;
     const bool good =
-        (stored || gb_error_set(err, GB_ERR_INPUT, "%s", why_none(runner))) &&
+        (stored || gb_error_set(err, GB_ERR_INPUT, "the run has no stored state yet")) &&
         gb_child_command_start(child, name, path, GB_CHILD_COMMAND_QUIET, words, err);
     g_free(path);
     return good;
@@ -60,7 +51,7 @@ bool gb_moduli_job_start(struct gb_moduli_job *job, struct gb_runner *runner, bo
         return gb_error_set(err, GB_ERR_INPUT, "the %s is not finished yet", child->name);
     }
     if (!live) {
-        return start_command(job, runner, child, err);
+        return start_command(job, gb_runner_directory(runner), child, err);
     }
     const int64_t stored = gb_runner_stored(runner);
     if (!gb_runner_send(runner, GB_COMMAND_STORE)) {
@@ -104,7 +95,7 @@ static void follow_store(struct gb_moduli_job *job, struct gb_runner *runner,
     }
     const bool over = gb_runner_snapshot(runner, NULL)->state >= GB_RUN_DONE;
     if (over || gb_runner_stored(runner) > job->stored) {
-        (void)start_command(job, runner, child, &job->failed);
+        (void)start_command(job, gb_runner_directory(runner), child, &job->failed);
     }
 }
 
