@@ -9,6 +9,7 @@
 #include <glib.h>
 
 #include "study/calibrate/calibrate.h"
+#include "study/calibrate/calibration_table.h"
 
 /* Calibration on a stand-in for the engine: compaction curves that friction stiffens and
  * adhesion hinders at low pressure, cells that scatter as those of the engine do. */
@@ -297,6 +298,33 @@ static void test_refuse(void)
     g_assert_cmpuint(bench.calls, ==, 0);
 }
 
+/* A value stays whole beside an error that is larger. */
+static void test_text(void)
+{
+    static const struct {
+        double value, error;
+        const char *text;
+    } rows[] = {
+        {0.4, 15.4, "contact.mu = 0.4 +- 15, 95 %: "},
+        {0.05, 0.12, "contact.mu = 0.05 +- 0.12, 95 %: "},
+        {0.40621, 0.00651, "contact.mu = 0.4062 +- 0.0065, 95 %: "},
+        {0.40621, 0.22, "contact.mu = 0.41 +- 0.22, 95 %: "},
+    };
+    struct gb_params params;
+    struct gb_error err = {0};
+    struct gb_calibration calibration = {0};
+    gb_params_init(&params);
+    g_assert_true(gb_free_keys_parse(&calibration.keys, "mu=0.05:0.5", &params, &err));
+    for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
+        calibration.result.value[0] = rows[k].value;
+        calibration.result.error[0] = rows[k].error;
+        GString *text = gb_calibration_table_text(&calibration);
+        g_test_message("%s", text->str);
+        g_assert_true(g_str_has_prefix(text->str, rows[k].text));
+        g_string_free(text, TRUE);
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -309,5 +337,6 @@ int main(int argc, char **argv)
     g_test_add_func("/calibrate/limit", test_limit);
     g_test_add_func("/calibrate/weights", test_weights);
     g_test_add_func("/calibrate/refuse", test_refuse);
+    g_test_add_func("/calibrate/text", test_text);
     return g_test_run();
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every screen, cell by cell, at four sizes in four modes, in a real terminal: views, panes,
-dialogs, cards, lists, help; of a live run that is paused, of a die, of discs, of many runs, and
-the list of runs.
+dialogs, result cards, lists, help; of a live run that is paused, of a die, of discs, of many
+runs, and the list of runs.  The modes have a terminal each and run side by side.
 
 Usage: cells.py GREENBODY PRESET_FOLDER [MODE...] [PART...]
 
@@ -10,22 +10,16 @@ are whole (no text over them), no number is cut (at an edge none is the beginnin
 the widest screen shows, and none stands before an ellipsis behind other words), the footer
 is whole, ASCII is ASCII, and a terminal without colours gets none.
 """
-import os
-import pathlib
+import concurrent.futures
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
-import time
 
-PATIENCE_S = 900 * float(os.environ.get('GB_TEST_PATIENCE', '1'))
+from cell_checks import (check_axis, check_box, check_mode, check_numbers, check_panes,
+                         numbers)
+from cell_terminal import MODES, Results, Stopped, Terminal
+
 SIZES = [(200, 60), (120, 40), (80, 24), (60, 20)]  # the widest first
-MODES = {'utf8': [], 'ascii': ['--ascii'], 'mono': [], 'light': ['--theme=light']}
-BELOW_ROWS = 3  # message and footer
-VERTICAL = set('│├┤┼┬┴┌┐└┘|+')
-AXIS = set('│┤┼├└┬')
-NUMBER = re.compile(r'[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?')
 CUT = re.compile(r'\S [-+]?\d[\d.]*…')
 CUT_ASCII = re.compile(r'\S [-+]?\d[\d.]*(?<=\d)~(?=\s|$|[|])')
 DIALOGS = [('?', 'Keys and glossary'), ('/', 'Find a parameter'), ('o', 'Open a preset'),
@@ -40,188 +34,12 @@ DISCS = ['p2-v1', 'particles.count=150', 'loading.relax=0.005 ns', 'loading.hold
 LIVE_DIALOGS = [('f', 'What-if: continue'), ('q', 'Quit?')]
 
 
-class Terminal:
-    def __init__(self, program, presets):
-        self.here = pathlib.Path(tempfile.mkdtemp())
-        self.program = program
-        self.socket = f'greenbody-cells-{os.getpid()}'
-        self.env = {k: v for k, v in os.environ.items()
-                    if k not in ('NO_COLOR', 'COLORTERM', 'TMUX', 'LINES', 'COLUMNS')}
-        self.env.update(GB_PRESET_DIR=presets, XDG_CONFIG_HOME=str(self.here / 'config'),
-                        XDG_STATE_HOME=str(self.here / 'state'), LC_ALL='C.UTF-8')
-        self.rows = []
-
-    def tmux(self, *words):
-        return subprocess.run(['tmux', '-u', '-L', self.socket, '-f', '/dev/null', *words],
-                              env=self.env, capture_output=True, text=True).stdout
-
-    def start(self, mode, words):
-        before = ['env', 'NO_COLOR=1'] if mode == 'mono' else []
-        self.tmux('new-session', '-d', '-x', '200', '-y', '60', *before, self.program,
-                  *words, *MODES[mode])
-
-    def capture(self):
-        self.rows = self.tmux('capture-pane', '-p').split('\n')[:-1]
-        return self.rows
-
-    def settled(self):
-        """Rows of a screen that no frame changes."""
-        before = None
-        while before != self.capture():
-            before = self.rows
-            time.sleep(0.06)
-        return self.rows
-
-    def keys(self, *names):
-        self.tmux('send-keys', *names)
-
-    def until(self, holds, what):
-        end = time.monotonic() + PATIENCE_S
-        while not holds(self.capture()):
-            if time.monotonic() > end:
-                print('\n'.join('# ' + row for row in self.rows))
-                print(f'Bail out! never seen: {what}')
-                sys.exit(1)
-            time.sleep(0.03)
-
-    def until_shown(self, text):
-        self.until(lambda rows: any(text in row for row in rows), text)
-
-    def resize(self, cols, rows, last='quit'):
-        """`last` is a text of the last row."""
-        self.tmux('resize-window', '-x', str(cols), '-y', str(rows))
-        self.until(lambda seen: len(seen) == rows and last in seen[-1] and
-                   max(len(row.rstrip()) for row in seen[:-1]) >= cols - 2, f'{cols}x{rows}')
-
-    def end(self, key='q'):
-        """Quits, and a live run stops."""
-        def ended(rows):
-            if any('Quit?' in row for row in rows):
-                self.keys('y')
-            return not rows
-        self.keys(key)
-        self.until(ended, 'the end')
-
-    def finish(self):
-        self.tmux('kill-server')
-        shutil.rmtree(self.here, ignore_errors=True)
-
-
-def cells(row, cols):
-    return row.ljust(cols)
-
-
-def box_of(rows, title):
-    """Corners of the box with this title: row, left, right, last row; None: no box."""
-    for top, row in enumerate(rows):
-        match = re.search(r'[┌+][─-]+ ' + re.escape(title) + r'.* [─-]*[┐+]', row)
-        if match and top + 1 < len(rows):
-            left, right = match.start(), match.end() - 1
-            last = top + 1
-            while last < len(rows) and cells(rows[last], right + 1)[left] in '│|':
-                last += 1
-            if last > top + 1 and last < len(rows):
-                return top, left, right, last
-    return None
-
-
-def check_box(rows, title, faults):
-    """The box is closed; returns it."""
-    box = box_of(rows, title)
-    if box is None:
-        faults.append('no box')
-        return None
-    top, left, right, last = box
-    for at in range(top + 1, last):
-        if cells(rows[at], right + 1)[right] not in '│|':
-            faults.append(f'right border of the box in row {at + 1}')
-    bottom = cells(rows[last], right + 1)[left:right + 1]
-    if not re.fullmatch(r'[└+][─-]+[┘+]', bottom):
-        faults.append('bottom of the box')
-    return box
-
-
-def borders_of(rows):
-    """Columns of the vertical borders, each with the row that it begins in."""
-    joins = re.finditer(r'[─-]([┬+])[─-]', rows[1] if len(rows) > 1 else '')
-    return [match.start(1) for match in joins]
-
-
-def check_panes(rows, cols, faults):
-    """Borders between panes are whole down to the row before the message."""
-    columns = borders_of(rows)
-    for col in columns:
-        above = rows[:-BELOW_ROWS]
-        last = max((at for at, row in enumerate(above) if cells(row, cols)[col] in VERTICAL),
-                   default=0)
-        for at in range(1, last + 1):
-            if cells(rows[at], cols)[col] not in VERTICAL:
-                faults.append(f'border of column {col + 1} in row {at + 1}')
-    return columns
-
-
-def check_axis(rows, cols, faults):
-    """The ticks of an axis stand in one column, with nothing else between them and the
-    corner where the other axis begins."""
-    ticks = {}
-    for at, row in enumerate(rows):
-        for match in re.finditer(r'\d(┤)', row):
-            ticks.setdefault(match.start(1), []).append(at)
-    for col, found in ticks.items():
-        column = [cells(row, cols)[col] for row in rows]
-        while found:
-            first = found[0]
-            corner = column.index('└', first) if '└' in column[first:] else None
-            axis = [at for at in found if corner is None or at < corner]
-            found = found[len(axis):]  # of the axis of another pane below
-            if len(axis) < 2:  # a single number before a border
-                continue
-            if corner is None:
-                faults.append(f'axis of column {col + 1} without its corner')
-            for at in range(first, corner or axis[-1]):
-                if column[at] not in AXIS:
-                    faults.append(f'axis of column {col + 1} in row {at + 1}: {column[at]!r}')
-
-
-def numbers(rows):
-    return {token for row in rows for token in NUMBER.findall(row)}
-
-
-def check_numbers(rows, cols, edges, whole, faults, cut):
-    """No number at an edge is the beginning of one of the wide screen; none before an
-    ellipsis behind a word."""
-    for at, row in enumerate(rows[:-1]):
-        if cut and cut.search(row):
-            faults.append(f'cut number in row {at + 1}: {row.strip()}')
-        for edge in edges:
-            left = cells(row, cols)[:edge].rstrip(' ')
-            if len(left) < edge - 1:
-                continue
-            match = re.search(NUMBER.pattern + r'$', left)
-            if match and match[0] not in whole and any(
-                    token != match[0] and token.startswith(match[0]) for token in whole):
-                faults.append(f'number at the edge in row {at + 1}: {match[0]}')
-
-
-def check_mode(terminal, mode, name, faults):
-    if mode == 'ascii' and any(ord(c) > 126 for row in terminal.rows for c in row):
-        faults.append('not ASCII')
-    sent = terminal.tmux('capture-pane', '-p', '-e')
-    colours = set(re.findall(r'\x1b\[[0-9;]*(?:[34][0-7]|[34]8;5;\d+|9[0-7]|10[0-7])m', sent))
-    if mode == 'mono' and colours:
-        faults.append(f'colours: {colours}')
-    # the shades of a packing are backgrounds
-    if mode == 'light' and 'view 9' not in name and any('48;5;' in c for c in colours):
-        faults.append('a background of its own')
-
-
 class Walk:
-    def __init__(self, terminal, mode):
+    def __init__(self, terminal, mode, results):
         self.terminal = terminal
         self.mode = mode
+        self.results = results
         self.whole = {}  # numbers of the widest screen by what is shown
-        self.tests = 0
-        self.bad = 0
 
     def check(self, name, cols, lines, box=False, last='quit'):
         terminal, faults = self.terminal, []
@@ -242,14 +60,7 @@ class Walk:
         cut = CUT if self.mode != 'ascii' else None if verdicts else CUT_ASCII
         check_numbers(inner, cols, edges, self.whole[name], faults, cut)
         check_mode(terminal, self.mode, name, faults)
-        self.tests += 1
-        good = not faults
-        self.bad += not good
-        print(f'{"ok" if good else "not ok"} {self.tests} {self.mode} {cols}x{lines}: {name}',
-              flush=True)
-        if faults:
-            print('\n'.join('# ' + text for text in faults))
-            print('\n'.join('# ' + row for row in rows), flush=True)
+        self.results.add(f'{self.mode} {cols}x{lines}: {name}', faults, rows)
 
     def views(self, cols, lines):
         listed = subprocess.run([self.terminal.program, '--views'], capture_output=True,
@@ -270,35 +81,31 @@ class Walk:
         self.terminal.until_shown('z shows all again')
         self.check('zoom', cols, lines)
         self.terminal.keys('z')
-        self.terminal.until(lambda rows: not any('z shows' in row for row in rows), 'unzoomed')
+        self.terminal.until_gone('z shows')
 
     def dialogs(self, cols, lines, listed):
         for key, title in listed:
             self.terminal.keys(*key)
             self.terminal.until_shown(title[:20])
             if key == 'c':  # without a frame at the sides
-                self.tests += 1
-                good = any('greenbody run' in row for row in self.terminal.settled())
-                self.bad += not good
-                print(f'{"ok" if good else "not ok"} {self.tests} {self.mode} '
-                      f'{cols}x{lines}: the command')
+                rows = self.terminal.settled()
+                faults = [] if any('greenbody run' in row for row in rows) else ['no command']
+                self.results.add(f'{self.mode} {cols}x{lines}: the command', faults, rows)
             else:
                 self.check(f'dialog {title}', cols, lines, box=True)
             self.terminal.keys('Escape')
-            self.terminal.until(lambda rows: not any(title[:20] in row for row in rows),
-                                f'{title} closed')
+            self.terminal.until_gone(title[:20])
 
     def editors(self, cols, lines):
         self.terminal.keys('/', 'path', 'Enter', 'Enter')
         self.terminal.until_shown('Legs of loading.path')
         self.check('dialog Legs of loading.path', cols, lines, box=True)
         self.terminal.keys('Escape', 'Escape')
-        self.terminal.until(lambda rows: not any('Legs of' in row for row in rows), 'legs closed')
+        self.terminal.until_gone('Legs of')
         self.terminal.keys('/', 'n_d0', 'Enter', 'Enter')
         self.terminal.until_shown('Typing')
         self.check('a parameter being edited', cols, lines)
         self.terminal.keys('Escape', 'g', '1')
-
 
     def sizes(self, *parts):
         """Each part at each size."""
@@ -309,8 +116,8 @@ class Walk:
 
     def main_screen(self):
         """Two runs and measured data."""
-        self.terminal.start(self.mode, ['default', 'particles.count=300', 'contact.mu=0.15625',
-                                        'loading.until=60MPa', 'loading.unload_from=30MPa'])
+        self.terminal.start(['default', 'particles.count=300', 'contact.mu=0.15625',
+                             'loading.until=60MPa', 'loading.unload_from=30MPa'])
         prepare(self.terminal)
         self.card()
         self.sizes(self.views, self.panes,
@@ -326,12 +133,11 @@ class Walk:
         self.sizes(lambda cols, lines: self.check('dialog Result: replicas', cols, lines,
                                                   box=True))
         self.terminal.keys('Escape')
-        self.terminal.until(lambda rows: not any('Result: ' in row for row in rows), 'no card')
+        self.terminal.until_gone('Result: ')
 
     def live(self):
         """A paused run, whose counters are longer."""
-        self.terminal.start(self.mode, ['default', 'particles.count=3000',
-                                        'loading.step=0.02%'])
+        self.terminal.start(['default', 'particles.count=3000', 'loading.step=0.02%'])
         asked = 'the full cell takes long'  # on a slow machine
         self.terminal.until(lambda rows: 'running' in rows[0] or
                             any(asked in row for row in rows), 'the full cell')
@@ -348,8 +154,8 @@ class Walk:
 
     def views_of(self, words, keys):
         """A few views of another scene."""
-        self.terminal.start(self.mode, words)
-        self.terminal.until_shown('done')
+        self.terminal.start(words)
+        self.terminal.until_done()
 
         def each(cols, lines):
             for key in keys:
@@ -367,7 +173,7 @@ class Walk:
                         'loading.until=200 MPa', 'loading.unload_from=', '--quiet',
                         '--vary', 'contact.mu=0.1;0.3', '--vary', 'contact.alpha=0.24;0.4',
                         '--replicas', '2', '--out', there], env=self.terminal.env, check=True)
-        self.terminal.start(self.mode, ['attach', there])
+        self.terminal.start(['attach', there])
         self.terminal.until_shown('8 runs: 8 done')
 
         def each(cols, lines):
@@ -380,7 +186,7 @@ class Walk:
         self.terminal.end()
 
     def picker(self):
-        self.terminal.start(self.mode, ['attach'])
+        self.terminal.start(['attach'])
         self.terminal.until_shown('Esc leaves')
         for cols, lines in SIZES:
             self.terminal.resize(cols, lines, 'Esc leaves')
@@ -391,17 +197,93 @@ class Walk:
         self.terminal.end('Escape')
 
 
+    def cards(self):
+        """Each result is made once; `W`, Left and Right show all of them at each size."""
+        terminal = self.terminal
+        terminal.start(['default', 'particles.count=100', 'numerics.fidelity=fast',
+                        'loading.until=50MPa', 'loading.unload_from='])
+        terminal.until_done()
+        made = self.results_made()
+
+        def each(cols, lines):
+            terminal.keys('W')
+            for title in made:
+                terminal.until_shown(f'Result: {title}')
+                self.check(f'dialog Result: {title}', cols, lines, box=True)
+                terminal.keys('Left')
+            terminal.keys('Escape')
+            terminal.until_gone('Result: ')
+
+        self.sizes(each, self.reading)
+        terminal.end()
+
+    def reading(self, cols, lines):
+        """A file that can be read in two ways."""
+        data = self.terminal.here / 'two.csv'
+        data.write_text('Druck (MPa);Dichte (%)\n1,125;40\n2,125;55\n')
+        self.terminal.keys('e')
+        self.terminal.until_shown('Measured data')
+        self.terminal.keys('C-u', str(data), 'Enter')
+        self.terminal.until_shown('How is this file')
+        self.check('dialog How is this file read?', cols, lines, box=True)
+        self.terminal.keys('Escape')
+        self.terminal.until_gone('How is this file')
+
+    def long_run(self):
+        """The question before a long run."""
+        self.terminal.start(['p2-v5'])
+        self.terminal.until_shown('A long run: start it?')
+        self.terminal.until_gone('quick cell')
+        self.sizes(lambda cols, lines: self.check('dialog A long run: start it?', cols, lines,
+                                                  box=True))
+        self.terminal.keys('n')
+        self.terminal.until_gone('A long run')
+        self.terminal.end()
+
+    def results_made(self):
+        """Titles, the newest first."""
+        terminal = self.terminal
+        made = []
+
+        def makes(title, *keys):
+            for key in keys:
+                terminal.keys(key)
+            terminal.until_shown(f'Result: {title}')
+            made.insert(0, title)
+            terminal.keys('Escape')
+            terminal.until_gone('Result: ')
+
+        version = subprocess.run([terminal.program, '--version'], capture_output=True,
+                                 text=True).stdout
+        if 'no pictures' not in version:
+            makes('picture', 's', 'Enter')
+        makes('report', 'x')
+        makes('elastic moduli', 'Y')
+        makes('accuracy against cost', 'X', 'C-u', '2 1ms', 'Enter')
+        terminal.keys('T')
+        terminal.until_shown('T Stab')
+        makes('stability of the methods', 'X', '10 MPa', 'Enter')
+        terminal.keys('1')
+        data = terminal.here / 'small.csv'
+        data.write_text('p_MPa,density,density_error\n20,0.30,0.01\n50,0.35,0.01\n')
+        terminal.keys('e')
+        terminal.until_shown('Measured data')
+        terminal.keys('C-u', str(data), 'Enter')
+        terminal.until_shown('points reached')
+        makes('calibration', 'C', 'C-u', 'mu=0.05:0.4,alpha=0.2:0.5', 'Enter')
+        return made
+
+
 def prepare(terminal):
     """Two runs, the first with more digits than a narrow legend has room for, and data."""
     data = terminal.here / 'lab.csv'
     data.write_text('density,density_error,p_MPa\n0.3,0.01,12.25\n0.35,0.01,50.125\n')
-    done = 'done'
-    terminal.until_shown(done)
+    terminal.until_done()
     terminal.keys('/', 'contact.mu', 'Enter', 'Enter')
     terminal.until_shown('Enter accepts')
     terminal.keys('0.2875', 'Enter')
     terminal.until_shown('run 2 started')
-    terminal.until_shown(done)
+    terminal.until_done()
     terminal.keys('e')
     terminal.until_shown('Measured data')
     terminal.keys(str(data), 'Enter')
@@ -414,26 +296,35 @@ def prepare(terminal):
 PARTS = {'main': Walk.main_screen, 'live': Walk.live,
          'die': lambda walk: walk.views_of(DIE, '19'),
          'discs': lambda walk: walk.views_of(DISCS, '139'),
-         'many': Walk.many, 'picker': Walk.picker}
+         'many': Walk.many, 'picker': Walk.picker, 'cards': Walk.cards,
+         'long': Walk.long_run}
+
+
+def walk_mode(program, presets, mode, parts, results):
+    terminal = Terminal(program, presets, mode, results)
+    try:
+        walk = Walk(terminal, mode, results)
+        for part in parts:
+            part(walk)
+    except Stopped:
+        pass
+    finally:
+        terminal.finish()
 
 
 def main():
     program, presets = sys.argv[1:3]
     modes = [word for word in sys.argv[3:] if word in MODES] or list(MODES)
-    parts = [PARTS[word] for word in sys.argv[3:] if word in PARTS] or PARTS.values()
-    tests, bad = 0, 0
-    for mode in modes:
-        terminal = Terminal(program, presets)
-        try:
-            walk = Walk(terminal, mode)
-            walk.tests, walk.bad = tests, bad
-            for part in parts:
-                part(walk)
-            tests, bad = walk.tests, walk.bad
-        finally:
-            terminal.finish()
-    print(f'1..{tests}')
-    return 1 if bad else 0
+    parts = [PARTS[word] for word in sys.argv[3:] if word in PARTS] or list(PARTS.values())
+    results = Results()
+    with concurrent.futures.ThreadPoolExecutor(len(modes)) as pool:
+        walks = [pool.submit(walk_mode, program, presets, mode, parts, results)
+                 for mode in modes]
+    for walk in walks:
+        walk.result()
+    if not results.stopped:
+        print(f'1..{results.tests}')
+    return 1 if results.bad or results.stopped else 0
 
 
 if __name__ == '__main__':

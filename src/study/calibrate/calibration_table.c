@@ -130,6 +130,17 @@ static const char *unit_of(const struct gb_free_key *key)
     return key->field->dimension != GB_DIM_NONE ? "(SI)" : "";
 }
 
+/* The value to the decimal place of its error; where the error is the larger one that
+ * would be zero, outside of the range of most keys. */
+static char *write_value(double value, double error, char number[GB_NUMBER_ERROR_MAX])
+{
+    if (error > fabs(value)) {
+        g_snprintf(number, GB_NUMBER_ERROR_MAX, "%.2g +- %.2g", value, error);
+        return number;
+    }
+    return gb_number_error(value, error, 2, " +- ", number);
+}
+
 static void add_parameter(GString *text, const struct gb_calibration *calibration,
                           size_t k)
 {
@@ -143,8 +154,8 @@ static void add_parameter(GString *text, const struct gb_calibration *calibratio
         return;
     }
     char number[GB_NUMBER_ERROR_MAX];
-    gb_number_error(result->value[k], result->error[k], 2, " +- ", number);
-    g_string_append_printf(text, "%s = %s, 95 %%: %.4g to %.4g%s%s\n", name, number,
+    g_string_append_printf(text, "%s = %s, 95 %%: %.4g to %.4g%s%s\n", name,
+                           write_value(result->value[k], result->error[k], number),
                            result->low[k], result->high[k], *unit ? " " : "", unit);
     if (result->at_limit[k]) {
         g_string_append_printf(text,

@@ -1,0 +1,117 @@
+"""The program in a terminal of tmux, for cells.py, and what the terminals have found."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+PATIENCE_S = 900 * float(os.environ.get('GB_TEST_PATIENCE', '1'))
+MODES = {'utf8': [], 'ascii': ['--ascii'], 'mono': [], 'light': ['--theme=light']}
+
+
+class Stopped(Exception):
+    """A screen that is never seen, here or in another mode."""
+
+
+class Results:
+    """What the modes have found, line by line; none waits for long once one has stopped."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.tests = 0
+        self.bad = 0
+        self.stopped = False
+
+    def add(self, text, faults, rows):
+        with self.lock:
+            self.tests += 1
+            self.bad += bool(faults)
+            print(f'{"not ok" if faults else "ok"} {self.tests} {text}')
+            if faults:
+                print('\n'.join('# ' + line for line in [*faults, *rows]))
+            sys.stdout.flush()
+
+    def stop(self, text, rows):
+        with self.lock:
+            if not self.stopped:
+                print('\n'.join('# ' + row for row in rows))
+                print(f'Bail out! never seen: {text}', flush=True)
+            self.stopped = True
+        raise Stopped
+
+
+class Terminal:
+    def __init__(self, program, presets, mode, results):
+        self.here = pathlib.Path(tempfile.mkdtemp())
+        self.program = program
+        self.mode = mode
+        self.results = results
+        self.socket = f'greenbody-cells-{os.getpid()}-{mode}'
+        self.env = {k: v for k, v in os.environ.items()
+                    if k not in ('NO_COLOR', 'COLORTERM', 'TMUX', 'LINES', 'COLUMNS')}
+        self.env.update(GB_PRESET_DIR=presets, XDG_CONFIG_HOME=str(self.here / 'config'),
+                        XDG_STATE_HOME=str(self.here / 'state'), LC_ALL='C.UTF-8')
+        self.rows = []
+
+    def tmux(self, *words):
+        return subprocess.run(['tmux', '-u', '-L', self.socket, '-f', '/dev/null', *words],
+                              env=self.env, capture_output=True, text=True).stdout
+
+    def start(self, words):
+        before = ['env', 'NO_COLOR=1'] if self.mode == 'mono' else []
+        self.tmux('new-session', '-d', '-x', '200', '-y', '60', *before, self.program,
+                  *words, *MODES[self.mode])
+
+    def capture(self):
+        self.rows = self.tmux('capture-pane', '-p').split('\n')[:-1]
+        return self.rows
+
+    def settled(self):
+        """Rows of a screen that no frame changes."""
+        before = None
+        while before != self.capture():
+            before = self.rows
+            time.sleep(0.06)
+        return self.rows
+
+    def keys(self, *names):
+        self.tmux('send-keys', *names)
+
+    def until(self, holds, what):
+        end = time.monotonic() + PATIENCE_S
+        while not holds(self.capture()):
+            if time.monotonic() > end or self.results.stopped:
+                self.results.stop(f'{what} ({self.mode})', self.rows)
+            time.sleep(0.03)
+
+    def until_shown(self, text):
+        self.until(lambda rows: any(text in row for row in rows), text)
+
+    def until_gone(self, text):
+        self.until(lambda rows: not any(text in row for row in rows), f'no {text}')
+
+    def until_done(self):
+        """The run of the header; State has "work done" before."""
+        self.until(lambda rows: rows and 'done' in rows[0], 'done in the header')
+
+    def resize(self, cols, rows, last='quit'):
+        """`last` is a text of the last row."""
+        self.tmux('resize-window', '-x', str(cols), '-y', str(rows))
+        self.until(lambda seen: len(seen) == rows and last in seen[-1] and
+                   max(len(row.rstrip()) for row in seen[:-1]) >= cols - 2, f'{cols}x{rows}')
+
+    def end(self, key='q'):
+        """Quits, and a live run stops."""
+        def ended(rows):
+            if any('Quit?' in row for row in rows):
+                self.keys('y')
+            return not rows
+        self.keys(key)
+        self.until(ended, 'the end')
+
+    def finish(self):
+        self.tmux('kill-server')
+        shutil.rmtree(self.here, ignore_errors=True)
