@@ -11,6 +11,7 @@
 
 #include <glib.h>
 
+#include "base/text/text_list.h"
 #include "io/key_lines.h"
 #include "io/preset_folders.h"
 #include "io/text_file.h"
@@ -230,6 +231,25 @@ static bool load_path(struct gb_preset *preset, const char *path, struct gb_erro
            apply(preset, err);
 }
 
+/* The names of all folders and presets would be longer than a message. */
+static void refuse_name(const char *name, struct gb_error *err)
+{
+    enum { NAME_BYTES = 80, TEXT_BYTES = 60, PRESETS_BYTES = 80 };
+    const size_t bytes =
+        sizeof err->text - MIN(strlen(name), NAME_BYTES) - TEXT_BYTES - PRESETS_BYTES;
+    char **known = gb_preset_folders_list(), **folders = gb_preset_folders();
+    char *searched = gb_text_list_join(folders, bytes);
+    char *list = gb_text_list_join(known, bytes + PRESETS_BYTES - strlen(searched));
+    gb_error_set(err, GB_ERR_INPUT,
+                 "%.*s: no such file or preset; looked in %s; presets: %s", NAME_BYTES,
+                 name, *searched != '\0' ? searched : "folders of long names",
+                 *list != '\0' ? list : "none");
+    g_free(searched);
+    g_free(list);
+    g_strfreev(folders);
+    g_strfreev(known);
+}
+
 /* Path to read for what the user typed (g_free), or NULL with err. */
 static char *resolve(const char *name, struct gb_error *err)
 {
@@ -241,17 +261,7 @@ static char *resolve(const char *name, struct gb_error *err)
         path = g_strdup(name); /* the error follows from opening it */
     }
     if (!path) {
-        char **known = gb_preset_folders_list();
-        char **folders = gb_preset_folders();
-        char *list = g_strjoinv(", ", known);
-        char *searched = g_strjoinv(", ", folders);
-        gb_error_set(err, GB_ERR_INPUT,
-                     "%.80s: no such file or preset; looked in %.250s; presets: %s", name,
-                     searched, known[0] != NULL ? list : "none");
-        g_free(searched);
-        g_free(list);
-        g_strfreev(folders);
-        g_strfreev(known);
+        refuse_name(name, err);
     }
     return path;
 }

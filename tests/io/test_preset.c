@@ -340,6 +340,19 @@ static void test_lookup(void)
     g_free(own);
 }
 
+/* The message names whole folders. */
+static void test_long_folder(void)
+{
+    char *name = g_strnfill(200, 'f'), *other = g_strconcat("/", name, "/presets", NULL);
+    char *text = g_strdup_printf("%s/greenbody/presets, %s", folder, other);
+    g_setenv("GB_PRESET_DIR", other, TRUE);
+    expect_failure("no-such-preset", GB_ERR_INPUT, text);
+    g_setenv("GB_PRESET_DIR", GB_TEST_PRESETS, TRUE);
+    g_free(text);
+    g_free(other);
+    g_free(name);
+}
+
 /* A table of sizes lies beside its preset; a copy of the preset elsewhere carries the
  * table itself, so that a run directory is whole. */
 static void test_sizes(void)
@@ -419,6 +432,7 @@ int main(int argc, char **argv)
     g_test_add_func("/preset/list", test_list);
     g_test_add_func("/preset/lookup", test_lookup);
     g_test_add_func("/preset/sizes", test_sizes);
+    g_test_add_func("/preset/long-folder", test_long_folder);
     const int status = g_test_run();
     static const char *const files[] = {
         "a.ini", "b.ini", "complete.ini", "greenbody/presets", "greenbody", ""};
