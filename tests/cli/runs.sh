@@ -51,6 +51,9 @@ is 'a folder that is named' list "$here/runs"
 is 'has its own only' eval 'says "^default-1 " && [ "$(wc -l <stdout)" -eq 2 ]'
 list "$here/none"
 is 'a folder that is none is refused' eval '[ $? -eq 2 ] || grep -q "accepted a folder" stderr'
+"$greenbody" report "$here/runs/default-1" -o "$kept/report" >stdout 2>stderr
+is 'a report has the preset of its run' [ -s "$kept/report/preset.ini" ]
+is 'and is no run' eval 'list && ! says "^report"'
 mkdir -p "$kept/broken"
 echo nonsense >"$kept/broken/preset.ini"
 is 'a broken one is listed' eval 'list && says "^broken  *unreadable"'

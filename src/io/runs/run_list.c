@@ -117,6 +117,13 @@ static void read_run(struct gb_run_list_item *item)
     }
 }
 
+/* A folder of greenbody report, which has the preset of a run but none of its results. */
+static bool is_report(const char *path)
+{
+    int64_t unused;
+    return is_file(path, "report.md", &unused) && !is_file(path, "status.json", &unused);
+}
+
 /* A folder under search. */
 struct search {
     GPtrArray *list;
@@ -129,7 +136,7 @@ static void look_at(const char *path, void *data)
     const struct search *search = data;
     struct stat info;
     int64_t modified_s = 0;
-    if (lstat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
+    if (lstat(path, &info) != 0 || !S_ISDIR(info.st_mode) || is_report(path)) {
         return;
     }
     if (is_file(path, "preset.ini", &modified_s)) {
