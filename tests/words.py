@@ -38,6 +38,7 @@ PHRASES = re.compile(r"""
     |lateral[ ]over|breaks[ ]a[ ]bridge|released[ ]at|share[ ]of[ ]the[ ](number|volume)\b(?![ ]that)
     |change[ ]of[ ]height|energy[ ]error|floor[ ]bears|least[ ]gap|way[ ]of[ ]the[ ]punch
     |keys[ ]fitted|where[ ]it[ ]comes[ ]from|\bwants[ ]--
+    |between[ ]\S+[ ]and[ ]\S+[ ](growing[ ])?numbers
     """, re.X | re.I)
 LITERALS = re.compile(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*')
 

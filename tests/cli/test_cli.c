@@ -453,7 +453,8 @@ static void test_bench_sizes(void)
         result = call(words);
         g_assert_cmpint(result.status, ==, 2);
         g_assert_cmpstr(result.out, ==, "");
-        g_assert_nonnull(strstr(result.err, "growing numbers of particles"));
+        g_assert_nonnull(strstr(result.err, "must be 2 to 16 growing numbers of "
+                                              "particles from 10 to 10000000"));
         program_finish(&result);
         g_free(words);
     }

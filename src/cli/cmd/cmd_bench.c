@@ -70,8 +70,8 @@ static bool read_sizes(const char *text, struct gb_bench_cell *size, size_t *siz
     }
     g_strfreev(parts);
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "--sizes %s: must be between 2 and %d growing numbers "
-                                "of particles from 10 to 10000000, with commas between",
+                                "--sizes %s: must be 2 to %d growing numbers of "
+                                "particles from 10 to 10000000, with commas between",
                                 text, SIZES_MAX);
 }
 

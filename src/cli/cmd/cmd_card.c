@@ -33,7 +33,7 @@ static bool read_densities(struct gb_card_options *options, const char *text,
     char **words = g_strsplit(text, ",", 0);
     const guint count = g_strv_length(words);
     bool good = (count >= 2 && count <= GB_CARD_LEVELS_MAX) ||
-                gb_error_set(err, GB_ERR_INPUT, "--densities: must be between 2 and %d numbers",
+                gb_error_set(err, GB_ERR_INPUT, "--densities: must be 2 to %d numbers",
                              GB_CARD_LEVELS_MAX);
     for (guint i = 0; i < count && good; i++) {
         char *end = NULL;
