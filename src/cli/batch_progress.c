@@ -36,6 +36,7 @@ enum gb_batch_progress_rank gb_batch_progress_join(struct gb_batch_progress *bat
         *status = gb_options_fail(&err);
         return GB_BATCH_PROGRESS_OTHER;
     }
+    batch->launched = batch->mpi != NULL;
     if (gb_mpi_pool_is_first(batch->mpi)) {
         return GB_BATCH_PROGRESS_FIRST;
     }
@@ -150,9 +151,9 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
         return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: must be between 1 and %d, or 0 for all",
                             jobs, JOBS_MAX);
     }
-    const size_t workers = jobs > 0             ? (size_t)jobs
-                           : batch->mpi != NULL ? 1
-                                                : g_get_num_processors();
+    const size_t workers = jobs > 0          ? (size_t)jobs
+                           : batch->launched ? 1
+                                             : g_get_num_processors();
     gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     begin(batch, ensemble);
     if (batch->output == GB_BATCH_PROGRESS_ALL) {

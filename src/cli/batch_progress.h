@@ -17,6 +17,7 @@ enum gb_batch_progress_output {
 /* Many runs of one command: workers, progress on stderr, signals. */
 struct gb_batch_progress {
     struct gb_mpi_pool *mpi; /* ranks started by mpirun or srun; NULL: one process */
+    bool launched;           /* by mpirun or srun; also once the first rank is lost */
     enum gb_batch_progress_output output;
     const double *cost; /* of each run, for the time left; NULL: all cost the same */
     double cost_total, cost_before, cost_ended;
@@ -36,8 +37,8 @@ enum gb_batch_progress_rank {
 enum gb_batch_progress_rank gb_batch_progress_join(struct gb_batch_progress *batch,
                                                    int jobs, int *status);
 
-/* Does the missing runs with `jobs` workers, 0 for one per processor, or one where other
- * ranks help.  SIGINT, SIGTERM and SIGHUP stop them (GB_ERR_CANCELLED). */
+/* Does the missing runs with `jobs` workers, 0 for one per processor, or one for a process
+ * that mpirun or srun started.  SIGINT, SIGTERM and SIGHUP stop them (GB_ERR_CANCELLED). */
 bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble *ensemble,
                             int jobs, struct gb_error *err);
 

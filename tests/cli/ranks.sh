@@ -106,6 +106,8 @@ without killed killed_at_once 1
 without left asked 1
 without lost asked_then_killed 1
 without headless killed_at_once 0
+is 'one run at once on each, as before' \
+    [ "$(grep '^[0-9]* runs, .* done before; ' stderr | grep -vc '; 1 at once$')" -eq 0 ]
 is 'and the means are written' [ "$(grep -c '^[12],0.[13],load,10,4,' headless/sweep.csv)" -eq 2 ]
 
 echo "1..$tests"
