@@ -5,8 +5,8 @@ Usage: pages.py SOURCE_DIR GREENBODY
 
 Every command has a line of the table of commands, and every line a command; so has every exit
 status.  Every key of the
-table of keys, which is a selection, is a key of the workbench.  Figures, commands and presets that
-the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
+table of keys, which is a selection, is a key of the workbench.  Figures, commands, presets and tests
+that the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
 """
 import pathlib
 import re
@@ -43,6 +43,36 @@ def figures(greenbody):
             return found
         found[match.group(1)] = match.group(2) or ''
     return found
+
+
+# "(`store`, `run`)" and the last cells of tables of docs/threats.md, which name only tests; elsewhere
+# "test `name`".
+NAMES = r'`\w\w+`(?:, `\w\w+`)*'
+CLAIMS = re.compile(rf'\(({NAMES})\)|\| ({NAMES}) \|$', re.MULTILINE)
+TEST = re.compile(r'\btests? `(\w+)`')
+
+
+def tests(source):
+    """Names in the build files of the tests; some are put together of two words there."""
+    words = {word for path in source.glob('tests/**/meson.build')
+             for word in re.findall(r"'(\w+)'", path.read_text(encoding='utf-8'))}
+    return words | {first + second for first in words if first.endswith('_') for second in words} | \
+        {first + second for second in words if second.startswith('_') for first in words}
+
+
+def wrong_tests(source):
+    """One line for each test on the pages that there is not."""
+    known = tests(source)
+    for page in [*sorted(source.glob('docs/*.md')), source / 'CONTRIBUTING.md']:
+        text = page.read_text(encoding='utf-8')
+        named = set(TEST.findall(text))
+        if page.name == 'threats.md':
+            cells = [cell for match in CLAIMS.findall(text) for cell in match]
+            named |= set(re.findall(r'\w+', ' '.join(cells)))
+            if len(named) < 20:
+                yield f'{page.relative_to(source)}: names of tests are not found'
+        for name in sorted(named - known):
+            yield f'{page.relative_to(source)}: there is no test {name}'
 
 
 def wrong_pages(source, known, commands):
@@ -85,6 +115,7 @@ def main():
     wrong = [f'docs/manual.md: {line}' for line in wrong]
     known = figures(sys.argv[2])
     wrong += [f'docs/{line}' for line in wrong_pages(pathlib.Path(sys.argv[1]), known, commands)]
+    wrong += wrong_tests(pathlib.Path(sys.argv[1]))
     if not known:
         wrong.append('plot --help: no list of figures')
     for line in wrong:
