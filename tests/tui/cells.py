@@ -194,6 +194,11 @@ class Walk:
             self.terminal.until(lambda rows: re.search('live, .*B *$', rows[0]),
                                 'the size at the end of the header')
             self.check('list of runs', cols, lines, last='Esc leaves')
+            self.terminal.keys('DC')
+            self.terminal.until_shown('y deletes')
+            self.check('list of runs: delete?', cols, lines, last='Esc leaves')
+            self.terminal.keys('n')
+            self.terminal.until_gone('y deletes')
         self.terminal.end('Escape')
 
 

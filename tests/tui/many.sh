@@ -103,6 +103,7 @@ keys Enter
 shows "which lies over the plot" 'measured, RMS misfit'
 keys C
 shows "C asks for the keys" 'Calibration to the measured'
+shows "by their names on the screen" '│  mu,alpha  '
 keys C-u
 keys -l 'nuu'
 keys Enter
