@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "draw/caption/caption.h"
 #include "draw/caption/force_legend.h"
+#include "draw/caption/load_label.h"
 #include "draw/gl/renderer.h"
 #include "draw/image/png.h"
 #include "draw/mute_stderr.h"
@@ -34,6 +35,7 @@ void gb_packing_image_arrange(const struct gb_packing_image *packing_image,
         .crop = packing_image->crop,
         .annotated = packing_image->annotated,
         .bar = style->scale.title != NULL,
+        .load = gb_load_label_arrow(scene->frame_arrow[0], scene->frame_arrows) >= 0,
         .rods = gb_force_legend_lines(style),
         .aspect = (view->high[1] - view->low[1]) / (view->high[0] - view->low[0])};
     gb_caption_layout_arrange(&page, layout);

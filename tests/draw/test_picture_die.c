@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "draw/caption/load_label.h"
+
 /* The packing in a die of radius 5 with a punch on it. */
 static struct gb_state *make_die(void)
 {
@@ -160,6 +162,62 @@ static void test_die_arrow(void)
     gb_state_destroy(state);
 }
 
+/* The word of pressing stands beside its arrow, within the page, and no line of box or die and
+ * no particle is behind it; its letters are there. */
+static void check_word(size_t k, enum gb_caption_layout_crop crop,
+                       const struct gb_state *state)
+{
+    static const char *const views[] = {"corner", "front", "side", "-58,35", "20,50"};
+    struct gb_packing_image packing_image = page(views[k]);
+    struct gb_caption_layout layout;
+    struct gb_frame word;
+    packing_image.crop = crop;
+    struct gb_scene *scene = small_packing_scene(&packing_image, state, &layout);
+    const double unit = layout.unit;
+    g_assert_cmpint(gb_load_label_arrow(scene->arrow[0], scene->arrows), ==,
+                    scene->arrows - 1);
+    gb_load_label_find(scene, scene->arrows - 1, unit, layout.width, 2.15 * unit, &word);
+    const struct gb_frame arrow = arrow_frame(scene, scene->arrows - 1);
+    g_assert_cmpfloat(word.left, >, 0.0);
+    g_assert_cmpfloat(word.left + word.width, <, layout.width);
+    g_assert_cmpfloat(word.top, >=, 2.1 * unit);
+    if (k < 3) { /* from above the punch reaches higher than the arrow on it */
+        g_assert_cmpfloat(word.top + word.height, >, arrow.top - unit);
+    }
+    g_assert_cmpfloat(word.left, <, arrow.left + arrow.width + unit);
+    g_assert_cmpfloat(word.left + word.width, >, arrow.left - unit);
+    for (int e = 0; e < scene->edge_count; e++) {
+        for (int j = 0; j <= 64; j++) {
+            double at[3], pixel[2];
+            for (int i = 0; i < 3; i++) {
+                const double from = scene->edge[e][i], to = scene->edge[e][3 + i];
+                at[i] = from + j * (to - from) / 64.0;
+            }
+            gb_view_pixel(&scene->view, at, pixel);
+            g_assert_false(pixel[0] > word.left && pixel[0] < word.left + word.width &&
+                           pixel[1] > word.top && pixel[1] < word.top + word.height);
+        }
+    }
+    struct gb_image *image = small_packing_paint(&packing_image, state);
+    g_assert_cmpint(count_ink(image, &word), >, 40);
+    gb_image_destroy(image);
+    gb_scene_destroy(scene);
+}
+
+static void test_word(void)
+{
+    struct gb_state *state = make_die();
+    struct gb_state *cell = small_packing_make(3);
+    cell->pressed[1] = cell->pressed[2] = 1.0;
+    for (size_t k = 0; k < 5; k++) {
+        check_word(k, GB_CAPTION_LAYOUT_NO_CROP, state);
+        check_word(k, GB_CAPTION_LAYOUT_CROP_BOTH, state);
+        check_word(k, GB_CAPTION_LAYOUT_CROP_BOTH, cell);
+    }
+    gb_state_destroy(cell);
+    gb_state_destroy(state);
+}
+
 static const uint8_t *seen_at(const struct gb_image *image, const struct gb_scene *scene,
                               double x, double y, double z)
 {
@@ -288,6 +346,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/picture/arrow", test_arrow);
     g_test_add_func("/draw/picture/planar-arrow", test_planar_arrow);
     g_test_add_func("/draw/picture/die-arrow", test_die_arrow);
+    g_test_add_func("/draw/picture/word-of-pressing", test_word);
     g_test_add_func("/draw/picture/walls", test_walls);
     g_test_add_func("/draw/picture/funnel", test_funnel);
     g_test_add_func("/draw/picture/order", test_order);

@@ -13,6 +13,7 @@ static const double print_height = 1.25;
 
 /* Lengths in lines of text. */
 static const double above = 2.6;         /* title */
+static const double load_above = 3.2;    /* title, and the word of pressing over the packing */
 static const double below = 4.4;         /* density and scale bar */
 static const double text_width = 24.0;   /* density and pressure on one line */
 static const double axes_side = 4.4;     /* room of the axes, beside that line */
@@ -45,7 +46,7 @@ static struct sizes annotated_sizes(const struct gb_caption_page *page)
                             : fmax(shorter / 44.0, 10.0);
     struct sizes sizes = {.unit = unit,
                           .left = fmax(margin * shorter, unit),
-                          .top = above * unit,
+                          .top = (page->load ? load_above : above) * unit,
                           .bottom = below * unit};
     sizes.legend_height =
         page->rods > 0 ? (page->rods * GB_CAPTION_LAYOUT_LEGEND_LINE) * unit : 0.0;

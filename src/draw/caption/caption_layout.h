@@ -23,6 +23,7 @@ struct gb_caption_page {
     enum gb_caption_layout_crop crop;
     bool annotated;
     bool bar;      /* there is a colour bar */
+    bool load;     /* there is an arrow of pressing with its word */
     int rods;      /* lines of the legend of forces; 0: none */
     double aspect; /* height over width of what is drawn */
 };

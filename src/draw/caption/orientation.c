@@ -2,14 +2,15 @@
 
 #include <math.h>
 
+#include "draw/caption/load_label.h"
+
 /* Lengths in lines of text. */
 static const double axis_length = 1.9, symbol_gap = 0.5;
 static const double head_length = 0.8, axis_head = 0.5; /* of arrows, of axes */
 static const double axis_width = 0.1, arrow_width = 0.2;
 static const double end_radius = 0.28; /* circle of an axis along the view */
-static const double word_width = 4.4;
 
-/* Shorter than this share of its length an arrow is drawn as its end. */
+/* Shorter than this share of its length an axis is drawn as its end. */
 static const double shortest = 0.3;
 
 static const char word[] = "pressing";
@@ -132,16 +133,17 @@ static void find_pixel(const struct gb_view *view, const float *point, double pi
     gb_view_pixel(view, (const double[3]){point[0], point[1], point[2]}, pixel);
 }
 
-/* Beside the arrow's shaft, on the side where the page has more room. */
-static void write_word(const struct gb_caption_pen *pen, const double from[2],
-                       const double to[2])
+static void write_word(const struct gb_caption_pen *pen, const struct gb_scene *scene,
+                       double top)
 {
-    const double x = 0.6 * from[0] + 0.4 * to[0];
-    const double y = 0.6 * from[1] + 0.4 * to[1];
     const double page = cairo_image_surface_get_width(cairo_get_target(pen->cairo));
-    const bool right = x + (word_width + 0.5) * pen->unit < page;
-    gb_caption_pen_line(pen, word, x + (right ? 0.5 : -0.5) * pen->unit, y,
-                        right ? 0.0 : 1.0, 0.85, 0.0);
+    const int arrow = gb_load_label_arrow(scene->arrow[0], scene->arrows);
+    struct gb_frame frame;
+    if (arrow >= 0) {
+        gb_load_label_find(scene, arrow, pen->unit, page, top, &frame);
+        gb_caption_pen_line(pen, word, frame.left, frame.top + 0.5 * frame.height, 0.0,
+                            GB_LOAD_LABEL_LINE, 0.0);
+    }
 }
 
 double gb_orientation_draw_load(const struct gb_caption_pen *pen,
@@ -153,19 +155,17 @@ double gb_orientation_draw_load(const struct gb_caption_pen *pen,
         double from[2], to[2];
         find_pixel(&scene->view, arrow, from);
         find_pixel(&scene->view, arrow + 3, to);
-        const double depth = arrow[5] - arrow[2];
-        const double size = hypot(arrow[3] - arrow[0], arrow[4] - arrow[1]);
-        if (size > shortest * hypot(size, depth)) {
+        if (!gb_load_label_end_on(arrow)) {
             draw_arrow(pen, from, to, arrow_width * pen->unit, head_length * pen->unit);
-            if (i == 0) {
-                write_word(pen, from, to);
-            }
             continue;
         }
-        const double end[2] = {corner[0] - (word_width + 0.3) * pen->unit, corner[1]};
-        draw_end(pen, end, depth < 0.0 ? TOWARDS_VIEWER : AWAY_FROM_VIEWER);
-        gb_caption_pen_line(pen, word, corner[0], corner[1], 1.0, 0.85, 0.0);
-        taken = (word_width + 1.6) * pen->unit;
+        const double end[2] = {corner[0] - (GB_LOAD_LABEL_WIDTH + 0.3) * pen->unit,
+                               corner[1]};
+        draw_end(pen, end, arrow[5] < arrow[2] ? TOWARDS_VIEWER : AWAY_FROM_VIEWER);
+        gb_caption_pen_line(pen, word, corner[0], corner[1], 1.0, GB_LOAD_LABEL_LINE,
+                            0.0);
+        taken = (GB_LOAD_LABEL_WIDTH + 1.6) * pen->unit;
     }
+    write_word(pen, scene, corner[1] + 0.65 * pen->unit);
     return taken;
 }

@@ -11,7 +11,8 @@ void gb_orientation_draw_axes(const struct gb_caption_pen *pen,
                               const struct gb_frame *frame, const struct gb_view *view,
                               int dimension);
 
-/* Arrows of pressing, with their word at the first one.  An arrow along the view is a circle
+/* Arrows of pressing, with their word beside the steepest one, clear of the packing
+ * (load_label.h).  An arrow along the view is a circle
  * with a dot or a cross, before the word that ends at `corner`.  Returns the width that this
  * takes there, pixels, or 0. */
 double gb_orientation_draw_load(const struct gb_caption_pen *pen,

@@ -20,6 +20,7 @@ static void scale_to_pixels(struct gb_figure_layout *layout)
 bool gb_figure_render(struct gb_image **out, const struct gb_figure *figure, int width,
                       int height, struct gb_figure_layout *layout, struct gb_error *err)
 {
+    height = gb_figure_surface_height(figure, width, height);
     if (!gb_image_create(out, width, height, err)) {
         return false;
     }

@@ -110,7 +110,8 @@ struct gb_figure_layout {
     double unit;      /* pixels per point */
 };
 
-/* Errors: GB_ERR_MACHINE (no font), GB_ERR_MEMORY, GB_ERR_INPUT (size). */
+/* In print the height grows where legend, caption or names would leave too little of it.
+ * Errors: GB_ERR_MACHINE (no font), GB_ERR_MEMORY, GB_ERR_INPUT (size). */
 bool gb_figure_render(struct gb_image **out, const struct gb_figure *figure, int width,
                       int height, struct gb_figure_layout *layout, struct gb_error *err);
 

@@ -1,10 +1,11 @@
 #include "draw/figure/figure_draw.h"
 
 #include <glib.h>
-#include <stdlib.h>
 
+#include "draw/figure/figure_annotations.h"
 #include "draw/figure/figure_curve.h"
 #include "draw/figure/figure_map.h"
+#include "draw/figure/figure_names.h"
 #include "draw/figure/figure_second.h"
 
 /* Lengths in points. */
@@ -14,17 +15,6 @@ static const double minor_tick_length = 2.2;
 
 static const double ink[3] = {0.1, 0.1, 0.12};
 static const double caption_ink[3] = {0.32, 0.33, 0.36};
-
-/* Label of an axis with the power of ten of its tick labels.  g_free. */
-static char *axis_name(const struct gb_figure_axis *axis,
-                       const struct gb_figure_axis_scale *scale)
-{
-    if (scale->power == 0) {
-        return g_strdup(axis->label);
-    }
-    return g_strdup_printf("%s × 10<sup>%s%d</sup>", axis->label,
-                           scale->power < 0 ? "\xe2\x88\x92" : "", abs(scale->power));
-}
 
 static void set_ink(cairo_t *cairo, const double rgb[3])
 {
@@ -99,36 +89,17 @@ static void draw_axes(const struct gb_figure_page *page)
     const struct gb_figure_layout *layout = &page->layout;
     const double *f = layout->frame;
     draw_rules(page);
-    char *x_name = axis_name(&page->figure->x, &layout->x);
-    char *y_name = axis_name(&page->figure->y, &layout->y);
+    char *x_name = gb_figure_names_of(page->figure->x.label, &layout->x);
+    char *y_name = gb_figure_names_of(page->figure->y.label, &layout->y);
     if (page->figure->below_count == 0) {
-        gb_text_write(
-            &page->text, x_name, gb_figure_page_label_size, 0.0,
-            (double[2]){0.5 * (f[0] + f[2]),
-                        f[3] + gb_figure_page_gap + 1.5 * gb_figure_page_tick_size},
-            (double[2]){0.5, 0.0}, 0);
+        gb_figure_names_draw(page, x_name, GB_FIGURE_NAMES_ALONG_X, 0.5 * (f[0] + f[2]),
+                             f[3] + gb_figure_page_gap + 1.5 * gb_figure_page_tick_size,
+                             0.0);
     }
-    gb_text_write(&page->text, y_name, gb_figure_page_label_size, 0.0,
-                  (double[2]){8.0, 0.5 * (f[1] + f[3])}, (double[2]){0.5, 0.0}, 1);
+    gb_figure_names_draw(page, y_name, GB_FIGURE_NAMES_ALONG_Y, 0.5 * (f[1] + f[3]), 8.0,
+                         0.0);
     g_free(x_name);
     g_free(y_name);
-}
-
-static void draw_annotations(const struct gb_figure_page *page)
-{
-    for (size_t k = 0; k < page->figure->annotations; k++) {
-        const struct gb_figure_annotation *note = &page->figure->annotation[k];
-        const bool left =
-            note->corner == GB_FIGURE_BELOW_LEFT || note->corner == GB_FIGURE_ABOVE_LEFT;
-        const bool below =
-            note->corner == GB_FIGURE_BELOW_LEFT || note->corner == GB_FIGURE_BELOW_RIGHT;
-        const double at[2] = {
-            gb_figure_axis_position(&page->layout.x, note->x) + (left ? -4.0 : 4.0),
-            gb_figure_axis_position(&page->layout.y, note->y) + (below ? 3.0 : -3.0)};
-        const double align[2] = {left ? 1.0 : 0.0, below ? 0.0 : 1.0};
-        gb_text_write(&page->text, note->text, gb_figure_page_tick_size, 0.0, at, align,
-                      0);
-    }
 }
 
 static void draw_texts(const struct gb_figure_page *page)
@@ -208,7 +179,7 @@ void gb_figure_draw_page(const struct gb_figure_page *page)
     gb_figure_second_draw(page);
     draw_inset(page);
     draw_below(page);
-    draw_annotations(page);
+    gb_figure_annotations_draw(page);
     gb_figure_labels_draw(&page->labels, page->figure, &page->text);
     draw_texts(page);
 }

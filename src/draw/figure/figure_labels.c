@@ -7,6 +7,7 @@
 #include "draw/figure/figure_curve.h"
 #include "draw/figure/figure_marker.h"
 #include "draw/figure/figure_occupancy.h"
+#include "draw/figure/figure_page.h"
 
 static const double size = GB_FIGURE_LABELS_SIZE;
 static const double pitch = 12.6;  /* of legend lines */
@@ -168,22 +169,72 @@ static bool in_legend(const struct gb_figure_labels *labels,
     return has_label(&figure->curve[i]) && labels->at[i][2] <= 0.0;
 }
 
-static void legend_size(const struct gb_figure_labels *labels,
-                        const struct gb_figure *figure, const struct gb_text *text,
-                        double *wide, double *high)
+/* Width of the line of a curve in the legend; 0: it has none. */
+static double line_width(const struct gb_figure_labels *labels,
+                         const struct gb_figure *figure, const struct gb_text *text,
+                         size_t i)
 {
-    *wide = 0.0;
-    *high = 0.0;
+    double wide = 0.0;
+    double high = 0.0;
+    if (!in_legend(labels, figure, i)) {
+        return 0.0;
+    }
+    gb_text_measure(text, figure->curve[i].label, size, 0.0, &wide, &high);
+    return wide + sample + 3.0 * pad;
+}
+
+/* Columns of so many rows; returns the width of all. */
+static double set_columns(struct gb_figure_labels *labels, const struct gb_figure *figure,
+                          const struct gb_text *text, int rows)
+{
+    double wide = 0.0;
+    int line = 0;
+    labels->rows = rows;
+    memset(labels->left, 0, sizeof labels->left);
     for (size_t i = 0; i < figure->count; i++) {
-        double w = 0.0;
-        double h = 0.0;
-        if (in_legend(labels, figure, i)) {
-            gb_text_measure(text, figure->curve[i].label, size, 0.0, &w, &h);
-            *wide = fmax(*wide, w + sample + 3.0 * pad);
-            *high += pitch;
+        const double own = line_width(labels, figure, text, i);
+        if (own > 0.0 && line > 0 && line % rows == 0) {
+            labels->left[line / rows] = labels->left[line / rows - 1] + wide;
+            wide = 0.0;
+        }
+        wide = fmax(wide, own);
+        line += own > 0.0;
+        labels->left[(line + rows - 1) / rows] =
+            labels->left[line > 0 ? (line - 1) / rows : 0] + wide;
+    }
+    return labels->left[(line + rows - 1) / rows];
+}
+
+static int count_lines(const struct gb_figure_labels *labels,
+                       const struct gb_figure *figure)
+{
+    int count = 0;
+    for (size_t i = 0; i < figure->count; i++) {
+        count += in_legend(labels, figure, i);
+    }
+    return count;
+}
+
+double gb_figure_labels_columns(struct gb_figure_labels *labels,
+                                const struct gb_figure *figure,
+                                const struct gb_text *text, double most)
+{
+    const int count = count_lines(labels, figure);
+    double wide = 0.0;
+    for (int columns = GB_FIGURE_LABELS_COLUMNS; columns > 0; columns--) {
+        const int rows = (count + columns - 1) / columns;
+        wide = set_columns(labels, figure, text, rows > 0 ? rows : 1);
+        if (wide <= most) {
+            break;
         }
     }
-    *high += *high > 0.0 ? pad : 0.0;
+    if (wide > most) {
+        labels->left[1] = wide = most;
+    }
+    labels->legend[2] = wide;
+    labels->legend[3] = labels->rows * pitch + pad;
+    labels->outside = true;
+    return labels->legend[3];
 }
 
 void gb_figure_labels_arrange(struct gb_figure_labels *labels,
@@ -202,7 +253,11 @@ void gb_figure_labels_arrange(struct gb_figure_labels *labels,
         gb_figure_occupancy_finish(&occupancy);
         gb_figure_occupancy_init(&occupancy, figure, layout);
     }
-    legend_size(labels, figure, text, &wide, &high);
+    const int lines = count_lines(labels, figure);
+    if (lines > 0) {
+        wide = set_columns(labels, figure, text, lines);
+        high = lines * pitch + pad;
+    }
     if (high > 0.0 && !gb_figure_occupancy_find(&occupancy, wide, high, labels->legend)) {
         labels->outside = true;
         labels->legend[2] = wide;
@@ -211,21 +266,47 @@ void gb_figure_labels_arrange(struct gb_figure_labels *labels,
     gb_figure_occupancy_finish(&occupancy);
 }
 
+/* A label with what follows one of its commas replaced by an ellipsis, so that it fits with the
+ * smallest letters: no number is cut.  g_free. */
+static char *shorten(const struct gb_text *text, const char *label, double most)
+{
+    char *markup = g_strdup(label);
+    for (;;) {
+        double wide = 0.0, high = 0.0;
+        gb_text_measure(text, markup, gb_figure_page_least_size, 0.0, &wide, &high);
+        char *comma = g_strrstr(markup, ", ");
+        if (wide <= most || comma == NULL) {
+            return markup;
+        }
+        *comma = '\0';
+        char *shorter = g_strconcat(markup, "\xe2\x80\xa6", NULL);
+        g_free(markup);
+        markup = shorter;
+    }
+}
+
 static void draw_legend(const struct gb_figure_labels *labels,
                         const struct gb_figure *figure, const struct gb_text *text)
 {
     static const double align[2] = {0.0, 0.5};
-    double y = labels->legend[1] + 0.5 * (pitch + pad);
+    int line = 0;
     for (size_t i = 0; i < figure->count; i++) {
         if (!in_legend(labels, figure, i)) {
             continue;
         }
-        const double x = labels->legend[0] + pad;
+        const int column = line / labels->rows;
+        const double x = labels->legend[0] + labels->left[column] + pad;
+        const double y =
+            labels->legend[1] + (line % labels->rows + 0.5) * pitch + 0.5 * pad;
+        const double most =
+            labels->left[column + 1] - labels->left[column] - sample - 2.5 * pad;
+        char *markup = shorten(text, figure->curve[i].label, most);
         gb_figure_curve_sample(text->cairo, &figure->curve[i], x, y, sample);
         cairo_set_source_rgb(text->cairo, 0.1, 0.1, 0.12);
-        gb_text_write(text, figure->curve[i].label, size, 0.0,
-                      (double[2]){x + sample + pad, y}, align, 0);
-        y += pitch;
+        gb_text_write_line(text, markup, size, gb_figure_page_least_size, most,
+                           (double[2]){x + sample + pad, y}, align, 0);
+        g_free(markup);
+        line++;
     }
 }
 

@@ -7,18 +7,27 @@
 /* Font size of labels, points of the page. */
 #define GB_FIGURE_LABELS_SIZE 8.6
 
+enum { GB_FIGURE_LABELS_COLUMNS = 4 };
+
 /* Labels of the curves: beside the lines where all of them have space, a legend for the
  * rest, in a free part of the frame or right of it. */
 struct gb_figure_labels {
     double (*at)[4];  /* box of each label; right end 0: in the legend */
     double legend[4]; /* all 0: none */
     bool outside;     /* no space in the frame: legend[2], [3] are width and height */
+    int rows;         /* of each column of the legend */
+    double left[GB_FIGURE_LABELS_COLUMNS + 1]; /* of the columns in it, and its width */
 };
 
 void gb_figure_labels_arrange(struct gb_figure_labels *labels,
                               const struct gb_figure *figure,
                               const struct gb_figure_layout *layout,
                               const struct gb_text *text);
+/* Divides a legend outside of the frame into as many columns as fit into a width: legend[2], [3]
+ * become those of all.  Returns its height. */
+double gb_figure_labels_columns(struct gb_figure_labels *labels,
+                                const struct gb_figure *figure,
+                                const struct gb_text *text, double most);
 void gb_figure_labels_draw(const struct gb_figure_labels *labels,
                            const struct gb_figure *figure, const struct gb_text *text);
 void gb_figure_labels_finish(struct gb_figure_labels *labels); /* zeroed is fine */

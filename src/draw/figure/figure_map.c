@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "draw/figure/figure_names.h"
 #include "draw/image/palette.h"
 
 /* Lengths in points. */
@@ -70,9 +71,8 @@ static void draw_bar(const struct gb_figure_page *page)
         gb_text_write(&page->text, scale.label[k], gb_figure_page_tick_size, 0.0, at,
                       (double[2]){0.0, 0.5}, 0);
     }
-    gb_text_write(&page->text, map->label, gb_figure_page_label_size, 0.0,
-                  (double[2]){page->width - 5.0, 0.5 * (f[1] + f[3])},
-                  (double[2]){0.5, 1.0}, 1);
+    gb_figure_names_draw(page, map->label, GB_FIGURE_NAMES_ALONG_Y, 0.5 * (f[1] + f[3]),
+                         page->width - 5.0, 1.0);
 }
 
 void gb_figure_map_draw(const struct gb_figure_page *page)

@@ -4,20 +4,30 @@
 #include <math.h>
 #include <string.h>
 
+#include "draw/figure/figure_annotations.h"
 #include "draw/figure/figure_map.h"
+#include "draw/figure/figure_names.h"
 #include "draw/figure/figure_occupancy.h"
 #include "draw/figure/figure_range.h"
 #include "draw/figure/figure_second.h"
+#include "draw/image/print_size.h"
 
 const double gb_figure_page_label_size = 10.0;
 const double gb_figure_page_tick_size = 8.8;
 const double gb_figure_page_title_size = 10.6;
 const double gb_figure_page_caption_size = 8.0;
+const double gb_figure_page_least_size =
+    GB_PRINT_SIZE_LEAST / GB_PRINT_SIZE_TEXT * GB_FIGURE_LABELS_SIZE;
 const double gb_figure_page_gap = 4.0;
 
 static const double inset_tick_size = 7.4;
 static const double margin = 12.0;
 static const double legend_most = 0.3; /* of the page, beside an inset */
+/* Widest legend right of the frame, with a second axis there, of the page in print and of
+ * others; a wider one stands below the axes. */
+static const double beside_most[2] = {0.36, 0.5};
+/* Height over width of the frame, where the height of the page is free. */
+static const double frame_shape = 0.62;
 
 /* Height of the panel below over that of both, and the gap between them. */
 static const double below_share = 0.28;
@@ -31,8 +41,9 @@ double gb_figure_page_text_width(const struct gb_figure_page *page)
 /* About so many ticks along an axis. */
 static int wanted_ticks(const struct gb_figure_page *page, bool along_x)
 {
-    return (int)fmax(
-        along_x ? (page->width - page->legend_width) / 62.0 : page->height / 48.0, 2.0);
+    return (int)fmax(along_x ? (page->width - page->legend_width) / 62.0
+                             : (page->height - page->legend_height) / 48.0,
+                     2.0);
 }
 
 static void fit_axes(struct gb_figure_page *page)
@@ -116,7 +127,9 @@ static void fit_below(const struct gb_figure_page *page, struct gb_figure *part,
     part->below_count = 0;
     *below = *page;
     below->figure = part;
-    below->height = 2.2 * below_share * page->height; /* for the number of ticks */
+    below->height = /* for the number of ticks */
+        2.2 * below_share * (page->height - page->legend_height);
+    below->legend_height = 0.0;
     fit_axes(below);
     below->layout.x = page->layout.x;
 }
@@ -155,8 +168,8 @@ static void set_frame(struct gb_figure_page *page)
     frame[1] = 8.0 + (title > 0.0 ? title + 5.0 : 0.0) + gb_figure_second_height(figure);
     frame[2] = page->width - 14.0 - page->legend_width - gb_figure_second_width(page);
     frame[3] = page->height - 6.0 - (caption > 0.0 ? caption + 6.0 : 0.0) -
-               1.7 * gb_figure_page_label_size - 1.5 * gb_figure_page_tick_size -
-               gb_figure_page_gap;
+               page->legend_height - 1.7 * gb_figure_page_label_size -
+               1.5 * gb_figure_page_tick_size - gb_figure_page_gap;
     frame[2] = fmax(frame[2], frame[0] + 10.0);
     frame[3] = fmax(frame[3], frame[1] + 10.0);
     if (figure->below_count > 0) {
@@ -198,8 +211,51 @@ static void arrange_again(struct gb_figure_page *page)
     gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
 }
 
-/* Places labels and legend; a legend without space in the frame goes to its right, and the
- * frame shrinks.  Where that would take much of the page, the inset gives way first. */
+static void set_frame_again(struct gb_figure_page *page)
+{
+    fit_axes(page);
+    set_frame(page);
+    memset(page->layout.inset, 0, sizeof page->layout.inset);
+    find_inset(page);
+}
+
+static void put_legend_beside(struct gb_figure_page *page)
+{
+    const double wide = page->labels.legend[2];
+    const double high = page->labels.legend[3];
+    page->legend_width = wide + gb_figure_page_gap;
+    set_frame_again(page);
+    arrange_again(page);
+    if (page->labels.outside) {
+        const double left =
+            page->layout.frame[2] + gb_figure_second_width(page) + gb_figure_page_gap;
+        const double top = page->layout.frame[1];
+        const double box[4] = {left, top, left + wide, top + high};
+        memcpy(page->labels.legend, box, sizeof box);
+    }
+}
+
+/* In columns between the name of the x axis and the caption. */
+static void put_legend_below(struct gb_figure_page *page)
+{
+    const double most = gb_figure_page_text_width(page);
+    page->legend_height =
+        gb_figure_labels_columns(&page->labels, page->figure, &page->text, most);
+    set_frame_again(page);
+    arrange_again(page);
+    gb_figure_labels_columns(&page->labels, page->figure, &page->text, most);
+    const double caption =
+        text_height(page, page->figure->caption, gb_figure_page_caption_size);
+    const double bottom = page->height - 6.0 - (caption > 0.0 ? caption + 6.0 : 0.0);
+    const double left = 0.5 * (page->width - page->labels.legend[2]);
+    const double box[4] = {left, bottom - page->labels.legend[3],
+                           left + page->labels.legend[2], bottom};
+    memcpy(page->labels.legend, box, sizeof box);
+}
+
+/* Places labels and legend; a legend without space in the frame goes to its right or below
+ * the axes, and the frame shrinks.  Where that would take much of the page, the inset gives
+ * way first. */
 static void set_labels(struct gb_figure_page *page)
 {
     gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
@@ -211,22 +267,35 @@ static void set_labels(struct gb_figure_page *page)
     if (!page->labels.outside) {
         return;
     }
-    page->legend_width =
-        fmin(page->labels.legend[2] + gb_figure_page_gap, 0.5 * page->width);
-    fit_axes(page);
-    set_frame(page);
-    memset(page->layout.inset, 0, sizeof page->layout.inset);
-    find_inset(page);
-    const double wide = page->labels.legend[2];
-    const double high = page->labels.legend[3];
-    arrange_again(page);
-    if (page->labels.outside) {
-        const double left =
-            page->layout.frame[2] + gb_figure_second_width(page) + gb_figure_page_gap;
-        const double top = page->layout.frame[1];
-        const double box[4] = {left, top, left + wide, top + high};
-        memcpy(page->labels.legend, box, sizeof box);
+    const double beside = page->labels.legend[2] + gb_figure_page_gap +
+                          gb_figure_second_width(page) +
+                          gb_figure_map_bar_width(page->figure);
+    if (beside <= beside_most[page->figure->per_inch > 0 ? 0 : 1] * page->width) {
+        put_legend_beside(page);
+    } else {
+        put_legend_below(page);
     }
+}
+
+/* Extends the y axis until the texts at points lie within the frame. */
+static void make_room_for_annotations(struct gb_figure_page *page)
+{
+    const struct gb_figure_axis *axis = &page->figure->y;
+    struct gb_figure_axis_scale *y = &page->layout.y;
+    double overrun[2];
+    gb_figure_annotations_overrun(page, overrun);
+    const bool exact[2] = {overrun[1] <= 0.0 || isfinite(axis->low),
+                           overrun[0] <= 0.0 || isfinite(axis->high)};
+    if (axis->log || (exact[0] && exact[1])) {
+        return;
+    }
+    const double *frame = page->layout.frame;
+    const double per_point = (y->high - y->low) / (frame[3] - frame[1]);
+    gb_figure_axis_fit(y, GB_FIGURE_AXIS_LINEAR,
+                       y->low - (exact[0] ? 0.0 : overrun[1] * per_point),
+                       y->high + (exact[1] ? 0.0 : overrun[0] * per_point),
+                       wanted_ticks(page, false), exact);
+    set_frame(page);
 }
 
 void gb_figure_page_arrange(struct gb_figure_page *page)
@@ -234,8 +303,19 @@ void gb_figure_page_arrange(struct gb_figure_page *page)
     page->legend_width = gb_figure_map_bar_width(page->figure);
     fit_axes(page);
     set_frame(page);
+    make_room_for_annotations(page);
     find_inset(page);
     set_labels(page);
+    make_room_for_annotations(page);
+}
+
+double gb_figure_page_wanted_height(const struct gb_figure_page *page)
+{
+    const double *frame = page->layout.frame;
+    const double *lowest = page->figure->below_count > 0 ? page->layout.below : frame;
+    const double least = fmax(frame_shape * (frame[2] - frame[0]),
+                              gb_figure_names_height(page) - frame[1]);
+    return page->height + fmax(least - (lowest[3] - frame[1]), 0.0);
 }
 
 void gb_figure_page_inset(const struct gb_figure_page *page, struct gb_figure *part,
@@ -251,6 +331,7 @@ void gb_figure_page_inset(const struct gb_figure_page *page, struct gb_figure *p
     inset->figure = part;
     inset->width = 1.15 * (box[2] - box[0]); /* for the number of ticks */
     inset->height = 1.3 * (box[3] - box[1]);
+    inset->legend_height = 0.0;
     inset->tick_size = inset_tick_size;
     fit_axes(inset);
     double *frame = inset->layout.frame;

@@ -2,7 +2,8 @@
 
 #include <glib.h>
 #include <math.h>
-#include <stdlib.h>
+
+#include "draw/figure/figure_names.h"
 
 /* Lengths in points. */
 static const double rule_width = 0.6;
@@ -52,17 +53,6 @@ double gb_figure_second_width(const struct gb_figure_page *page)
            gb_figure_page_gap;
 }
 
-/* The label with the power of ten of its tick labels; g_free. */
-static char *name_of(const struct gb_figure_second_axis *axis,
-                     const struct gb_figure_axis_scale *scale)
-{
-    return scale->power == 0
-               ? g_strdup(axis->label)
-               : g_strdup_printf("%s \xc3\x97 10<sup>%s%d</sup>", axis->label,
-                                 scale->power < 0 ? "\xe2\x88\x92" : "",
-                                 abs(scale->power));
-}
-
 enum side { TOP, RIGHT };
 
 static void draw_ticks(const struct gb_figure_page *page,
@@ -98,17 +88,14 @@ static void draw_name(const struct gb_figure_page *page,
                       const struct gb_figure_axis_scale *scale, enum side side)
 {
     const double *f = page->layout.frame;
-    char *name = name_of(axis, scale);
+    char *name = gb_figure_names_of(axis->label, scale);
     if (side == TOP) {
-        const double at[2] = {0.5 * (f[0] + f[2]),
-                              f[1] - gb_figure_page_gap - 1.5 * gb_figure_page_tick_size};
-        gb_text_write(&page->text, name, gb_figure_page_label_size, 0.0, at,
-                      (double[2]){0.5, 1.0}, 0);
+        gb_figure_names_draw(page, name, GB_FIGURE_NAMES_ALONG_X, 0.5 * (f[0] + f[2]),
+                             f[1] - gb_figure_page_gap - 1.5 * gb_figure_page_tick_size,
+                             1.0);
     } else {
-        const double at[2] = {f[2] + gb_figure_second_width(page) + 4.0,
-                              0.5 * (f[1] + f[3])};
-        gb_text_write(&page->text, name, gb_figure_page_label_size, 0.0, at,
-                      (double[2]){0.5, 1.0}, 1);
+        gb_figure_names_draw(page, name, GB_FIGURE_NAMES_ALONG_Y, 0.5 * (f[1] + f[3]),
+                             f[2] + gb_figure_second_width(page) + 4.0, 1.0);
     }
     g_free(name);
 }

@@ -9,6 +9,10 @@
 double gb_figure_surface_pixels_per_point(const struct gb_figure *figure, int width,
                                           int height);
 
+/* Height of an image that is `width` pixels wide: in print that of its page, which grows where
+ * legend, caption or names would leave too little of it; otherwise `height`. */
+int gb_figure_surface_height(const struct gb_figure *figure, int width, int height);
+
 /* Draws a figure onto a surface of which a point is `unit` long; size in points. */
 bool gb_figure_surface_draw(cairo_surface_t *surface, const struct gb_figure *figure,
                             const double size[2], double unit,

@@ -76,7 +76,8 @@ static bool write_vector(const struct vector_kind *kind, const struct gb_figure 
         return false;
     }
     const double unit = gb_figure_surface_pixels_per_point(figure, width, height);
-    const double size[2] = {width / unit, height / unit};
+    const double size[2] = {width / unit,
+                            gb_figure_surface_height(figure, width, height) / unit};
     const double scale = figure->per_inch > 0 ? unit * 72.0 / figure->per_inch : 1.0;
     GByteArray *bytes = g_byte_array_new();
     cairo_surface_t *surface =

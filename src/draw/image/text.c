@@ -1,6 +1,7 @@
 #include "draw/image/text.h"
 
 #include <fontconfig/fontconfig.h>
+#include <math.h>
 
 static const char *const face = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
 
@@ -50,6 +51,7 @@ static void set(const struct gb_text *text, const char *markup, double size, dou
     }
     pango_layout_set_width(text->layout, width > 0.0 ? (int)(width * PANGO_SCALE) : -1);
     pango_layout_set_wrap(text->layout, PANGO_WRAP_WORD_CHAR);
+    pango_layout_set_ellipsize(text->layout, PANGO_ELLIPSIZE_NONE);
 }
 
 static void extent(const struct gb_text *text, double *wide, double *high)
@@ -67,12 +69,12 @@ void gb_text_measure(const struct gb_text *text, const char *markup, double size
     extent(text, wide, high);
 }
 
-void gb_text_write(const struct gb_text *text, const char *markup, double size,
-                   double width, const double at[2], const double align[2], int quarters)
+/* What `set` has put into the layout. */
+static void show(const struct gb_text *text, const double at[2], const double align[2],
+                 int quarters)
 {
     double wide = 0.0;
     double high = 0.0;
-    set(text, markup, size, width);
     extent(text, &wide, &high);
     cairo_save(text->cairo);
     cairo_translate(text->cairo, at[0], at[1]);
@@ -80,4 +82,29 @@ void gb_text_write(const struct gb_text *text, const char *markup, double size,
     cairo_move_to(text->cairo, -align[0] * wide, -align[1] * high);
     pango_cairo_show_layout(text->cairo, text->layout);
     cairo_restore(text->cairo);
+}
+
+void gb_text_write(const struct gb_text *text, const char *markup, double size,
+                   double width, const double at[2], const double align[2], int quarters)
+{
+    set(text, markup, size, width);
+    show(text, at, align, quarters);
+}
+
+void gb_text_write_line(const struct gb_text *text, const char *markup, double size,
+                        double least, double most, const double at[2],
+                        const double align[2], int quarters)
+{
+    double wide = 0.0;
+    double high = 0.0;
+    gb_text_measure(text, markup, size, 0.0, &wide, &high);
+    if (wide > most) {
+        set(text, markup, fmax(size * most / wide, fmin(least, size)), 0.0);
+        extent(text, &wide, &high);
+        if (wide > 1.001 * most) {
+            pango_layout_set_width(text->layout, (int)(most * PANGO_SCALE));
+            pango_layout_set_ellipsize(text->layout, PANGO_ELLIPSIZE_MIDDLE);
+        }
+    }
+    show(text, at, align, quarters);
 }

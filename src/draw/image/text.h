@@ -28,4 +28,10 @@ void gb_text_measure(const struct gb_text *text, const char *markup, double size
 void gb_text_write(const struct gb_text *text, const char *markup, double size,
                    double width, const double at[2], const double align[2], int quarters);
 
+/* One line of at most `most`: reduced to fit down to the size `least`, then shortened in its
+ * middle, which keeps a unit at its end. */
+void gb_text_write_line(const struct gb_text *text, const char *markup, double size,
+                        double least, double most, const double at[2],
+                        const double align[2], int quarters);
+
 #endif

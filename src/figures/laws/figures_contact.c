@@ -45,7 +45,7 @@ static void add_point_labels(struct gb_series *series, const struct gb_model *mo
     const double deep = max_overlap * length;
     const struct gb_figure_annotation notes[] = {
         {far, normal_nn(model, far, 0.0), "<i>A</i>", GB_FIGURE_ABOVE_RIGHT},
-        {0.0, normal_nn(model, 0.0, 0.0), "<i>B</i>", GB_FIGURE_BELOW_RIGHT},
+        {0.0, normal_nn(model, 0.0, 0.0), "<i>B</i>", GB_FIGURE_BELOW_LEFT},
         {length, normal_nn(model, length, 0.0), "<i>C</i>", GB_FIGURE_BELOW_RIGHT},
         {0.0, normal_nn(model, 0.0, length), "<i>D</i>", GB_FIGURE_BELOW_LEFT},
         {deep, normal_nn(model, deep, 0.0), "<i>C\xe2\x80\xb2</i>", GB_FIGURE_ABOVE_LEFT},
