@@ -74,6 +74,10 @@ sed -n '/^## Parameters/,/^## References/p' with/report.md >keys
 grep -q '^| material.young | <i>E</i> | 382 | GPa | .* | P1 V |' keys &&
     ! grep -q "| loading.rate |\|| material.yield |\|| output\." keys
 result "the keys in use, with symbol, unit and source" $?
+grep -q '^| contact.bridge\\_length | .*<i>r</i><sub>ch</sub> | 0.008 | d | .* | P1 (2), V |' keys &&
+    grep -q '^| contact.shear\\_strength | .*<sub>b</sub> | .* | P1 (4), (5), V |' keys &&
+    grep -q '^| contact.bridge\\_radius | .* | deepest | .* | P1 II.A |' keys
+result "with those of bridges" $?
 sed -n '/^## References/,/^## Provenance/p' with/report.md >papers
 grep -q "P1: .* Three-dimensional simulations of nanopowder .*88, 012209 (2013)" papers &&
     grep -q "R. W. Heckel, Density-pressure relationships .* (1961)" papers &&
@@ -93,7 +97,9 @@ result "bridges" $?
 "$greenbody" run default particles.count=200 "loading.until=2 MPa" loading.unload_from= \
     contact.bridge_length=1d numerics.fidelity=fast -q --out plain >stdout 2>stderr &&
     "$greenbody" report plain -o loose >stdout 2>stderr &&
-    grep -q 'rod, mu = 0.1, no bridges, attraction' loose/report.md
+    grep -q 'rod, mu = 0.1, no bridges, attraction' loose/report.md &&
+    grep -q '^| contact.bridge\\_length .* | 1 | d |' loose/report.md &&
+    ! grep -q 'contact.bridge_radius' loose/tables/keys.csv
 result "and none" $?
 "$greenbody" report "run 1" "run 2" --data "$lab" -o twice >stdout 2>stderr
 same=0

@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "scene/derived.h"
 #include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
@@ -47,6 +48,11 @@ static bool lattice(const struct gb_params *params)
     return generated(params) && !grown(params);
 }
 
+static bool bridged(const struct gb_params *params)
+{
+    return gb_derived_bridge_length_m(params) < gb_derived_reference_m(params);
+}
+
 /* Two bodies of the law command; scenes have one material. */
 static bool never(const struct gb_params *params)
 {
@@ -70,6 +76,7 @@ static const struct {
     {"particles", "least", lognormal},
     {"particles", "largest", lognormal},
     {"particles", "table", table},
+    {"contact", "bridge_radius", bridged},
     {"contact", "radius_i", never},
     {"contact", "radius_j", never},
     {"loading", "geometry", without_path},
