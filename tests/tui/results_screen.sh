@@ -26,6 +26,7 @@ shows "s asks what to show" 'Picture'
 keys Enter
 shows "the picture has a card when it is drawn" 'Result: picture'
 shows "with its size" '[0-9]* x [0-9]* pixels, [0-9.]* [kM]B'
+hides "of a screen, not of paper" 'in print'
 shows "and its path" 'greenbody/runs/default-1'
 keys o
 shows "without pixels o shows where it is" 'this terminal shows no pixels: open'

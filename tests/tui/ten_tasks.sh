@@ -177,6 +177,7 @@ begin_task 7 'a picture 8 cm wide of forces'
 press
 if draws; then
     seen 'Result: picture'
+    seen 'in print 8 x [0-9.]* cm at 300 pixels per inch'
     is "$what: it is so wide" is_8_cm_wide
 fi
 end_task

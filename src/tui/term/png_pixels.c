@@ -42,6 +42,34 @@ static void end(png_image *png, FILE *stream)
     }
 }
 
+static uint32_t big_endian(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 |
+           bytes[3];
+}
+
+/* Pixels per inch of the chunk pHYs, which stands before the image data; libpng's simplified
+ * functions leave it out. */
+static double read_per_inch(FILE *stream)
+{
+    enum { HEAD = 8, SUM = 4, SIGNATURE = 8, BODY = 9, PER_METRE = 1 };
+    uint8_t head[HEAD], body[BODY];
+    if (fseek(stream, SIGNATURE, SEEK_SET) != 0) {
+        return 0.0;
+    }
+    while (fread(head, HEAD, 1, stream) == 1 && memcmp(head + 4, "IDAT", 4) != 0) {
+        const uint32_t length = big_endian(head);
+        if (memcmp(head + 4, "pHYs", 4) == 0) {
+            const bool whole = length == BODY && fread(body, BODY, 1, stream) == 1;
+            return whole && body[BODY - 1] == PER_METRE ? big_endian(body) * 0.0254 : 0.0;
+        }
+        if (length > INT32_MAX || fseek(stream, (long)length + SUM, SEEK_CUR) != 0) {
+            return 0.0;
+        }
+    }
+    return 0.0;
+}
+
 bool gb_png_pixels_measure(struct gb_png_pixels *out, const char *path,
                            struct gb_error *err)
 {
@@ -52,6 +80,7 @@ bool gb_png_pixels_measure(struct gb_png_pixels *out, const char *path,
     if (good) {
         out->wide = (int)png.width;
         out->high = (int)png.height;
+        out->per_inch = read_per_inch(stream);
     }
     end(&png, stream);
     return good;

@@ -19,6 +19,12 @@ bool gb_result_files_picture(struct gb_result_card *card,
     char *size = gb_run_line_size(gb_run_list_bytes(card->path));
     gb_result_card_add(card, GB_RESULT_VALUE, "%d x %d pixels, %s", picture.wide,
                        picture.high, size);
+    if (picture.per_inch > 0.0) {
+        gb_result_card_add(card, GB_RESULT_VALUE,
+                           "in print %.3g x %.3g cm at %.0f pixels per inch",
+                           2.54 * picture.wide / picture.per_inch,
+                           2.54 * picture.high / picture.per_inch, picture.per_inch);
+    }
     gb_result_card_add(card, GB_RESULT_NOTE,
                        "greenbody run --from FILE repeats the run of it");
     card->picture = g_strdup(card->path);
