@@ -4,20 +4,21 @@
 
 #include "draw/image/print_size.h"
 
-/* Minimum length of the shorter side for readable text, pixels. */
-static const int min_annotated_px = 240;
+/* Minimum length of the shorter side for text, pixels, and in print inches. */
+static const double min_annotated_px = 240.0, min_annotated_inches = 1.1;
 /* Margin of a page without text as a share of its shorter side. */
 static const double margin = 0.03;
 /* Greatest height of a cropped page over its width in print. */
 static const double print_height = 1.25;
 
 /* Lengths in lines of text. */
-static const double above = 2.6;         /* title */
-static const double load_above = 3.2;    /* title, and the word of pressing over the packing */
-static const double below = 4.4;         /* density and scale bar */
-static const double text_width = 24.0;   /* density and pressure on one line */
-static const double axes_side = 4.4;     /* room of the axes, beside that line */
-static const double bar_column = 7.5;    /* colour bar with labels and title */
+static const double above = 2.6; /* title */
+static const double load_above =
+    3.2;                         /* title, and the word of pressing over the packing */
+static const double below = 4.4; /* density and scale bar */
+static const double text_width = 24.0;    /* density and pressure on one line */
+static const double axes_side = 4.4;      /* room of the axes, beside that line */
+static const double bar_column = 7.5;     /* colour bar with labels and title */
 static const double legend_column = 10.2; /* longest line of the legend of forces */
 static const double bar_gap = 2.5, legend_gap = 1.0;
 static const double bar_width = 1.1;
@@ -94,8 +95,7 @@ static void set_column(const struct gb_caption_page *page, const struct sizes *s
     const double height =
         page->bar ? fmax(fmin(room - 2.0 * unit, bar_height[1] * unit), unit) : 0.0;
     const double gap = page->bar && page->rods > 0 ? 2.0 * unit : 0.0;
-    const double free_height =
-        layout->scene.height - sizes->legend_height - height - gap;
+    const double free_height = layout->scene.height - sizes->legend_height - height - gap;
     const double top = layout->scene.top + 0.5 * fmax(free_height, 0.0);
     layout->bar =
         (struct gb_frame){right + bar_gap * unit, top, bar_width * unit, height};
@@ -106,15 +106,16 @@ static void set_column(const struct gb_caption_page *page, const struct sizes *s
 void gb_caption_layout_arrange(const struct gb_caption_page *page,
                                struct gb_caption_layout *layout)
 {
-    const bool annotated =
-        page->annotated && fmin(page->width, page->height) >= min_annotated_px;
+    const double least =
+        page->per_inch > 0 ? min_annotated_inches * page->per_inch : min_annotated_px;
+    const bool annotated = page->annotated && fmin(page->width, page->height) >= least;
     const struct sizes sizes = annotated ? annotated_sizes(page) : bare_sizes(page);
     *layout = (struct gb_caption_layout){.unit = sizes.unit};
     set_page(page, &sizes, layout);
     if (annotated) {
         const double side = axes_side * sizes.unit;
         set_column(page, &sizes, layout);
-        layout->axes = (struct gb_frame){layout->width - side, layout->height - side,
-                                         side, side};
+        layout->axes =
+            (struct gb_frame){layout->width - side, layout->height - side, side, side};
     }
 }

@@ -2,7 +2,6 @@
 
 #include <glib.h>
 
-#include "draw/figure/figure_annotations.h"
 #include "draw/figure/figure_curve.h"
 #include "draw/figure/figure_map.h"
 #include "draw/figure/figure_names.h"
@@ -179,7 +178,7 @@ void gb_figure_draw_page(const struct gb_figure_page *page)
     gb_figure_second_draw(page);
     draw_inset(page);
     draw_below(page);
-    gb_figure_annotations_draw(page);
+    gb_figure_labels_annotate(page->figure, &page->layout, &page->text);
     gb_figure_labels_draw(&page->labels, page->figure, &page->text);
     draw_texts(page);
 }

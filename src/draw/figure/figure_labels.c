@@ -334,3 +334,47 @@ void gb_figure_labels_finish(struct gb_figure_labels *labels)
     g_free(labels->at);
     *labels = (struct gb_figure_labels){0};
 }
+
+/* The corner of its text at a point, and which one it is. */
+static void find_corner(const struct gb_figure_layout *layout,
+                        const struct gb_figure_annotation *note, double at[2],
+                        double align[2])
+{
+    const bool left =
+        note->corner == GB_FIGURE_BELOW_LEFT || note->corner == GB_FIGURE_ABOVE_LEFT;
+    const bool below =
+        note->corner == GB_FIGURE_BELOW_LEFT || note->corner == GB_FIGURE_BELOW_RIGHT;
+    at[0] = gb_figure_axis_position(&layout->x, note->x) + (left ? -4.0 : 4.0);
+    at[1] = gb_figure_axis_position(&layout->y, note->y) + (below ? 3.0 : -3.0);
+    align[0] = left ? 1.0 : 0.0;
+    align[1] = below ? 0.0 : 1.0;
+}
+
+void gb_figure_labels_overrun(const struct gb_figure *figure,
+                              const struct gb_figure_layout *layout,
+                              const struct gb_text *text, double overrun[2])
+{
+    static const double edge = 1.0;
+    overrun[0] = overrun[1] = 0.0;
+    for (size_t k = 0; k < figure->annotations; k++) {
+        const struct gb_figure_annotation *note = &figure->annotation[k];
+        double at[2], align[2], wide = 0.0, high = 0.0;
+        find_corner(layout, note, at, align);
+        gb_text_measure(text, note->text, gb_figure_page_tick_size, 0.0, &wide, &high);
+        const double top = at[1] - align[1] * high;
+        overrun[0] = fmax(overrun[0], layout->frame[1] + edge - top);
+        overrun[1] = fmax(overrun[1], top + high + edge - layout->frame[3]);
+    }
+}
+
+void gb_figure_labels_annotate(const struct gb_figure *figure,
+                               const struct gb_figure_layout *layout,
+                               const struct gb_text *text)
+{
+    for (size_t k = 0; k < figure->annotations; k++) {
+        const struct gb_figure_annotation *note = &figure->annotation[k];
+        double at[2], align[2];
+        find_corner(layout, note, at, align);
+        gb_text_write(text, note->text, gb_figure_page_tick_size, 0.0, at, align, 0);
+    }
+}

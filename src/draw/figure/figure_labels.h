@@ -30,6 +30,13 @@ double gb_figure_labels_columns(struct gb_figure_labels *labels,
                                 const struct gb_text *text, double most);
 void gb_figure_labels_draw(const struct gb_figure_labels *labels,
                            const struct gb_figure *figure, const struct gb_text *text);
+/* How far the texts at points (gb_figure_annotation) reach over the frame, above and below. */
+void gb_figure_labels_overrun(const struct gb_figure *figure,
+                              const struct gb_figure_layout *layout,
+                              const struct gb_text *text, double overrun[2]);
+void gb_figure_labels_annotate(const struct gb_figure *figure,
+                               const struct gb_figure_layout *layout,
+                               const struct gb_text *text);
 void gb_figure_labels_finish(struct gb_figure_labels *labels); /* zeroed is fine */
 
 #endif

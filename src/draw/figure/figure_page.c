@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/figure/figure_annotations.h"
 #include "draw/figure/figure_map.h"
 #include "draw/figure/figure_names.h"
 #include "draw/figure/figure_occupancy.h"
@@ -283,7 +282,7 @@ static void make_room_for_annotations(struct gb_figure_page *page)
     const struct gb_figure_axis *axis = &page->figure->y;
     struct gb_figure_axis_scale *y = &page->layout.y;
     double overrun[2];
-    gb_figure_annotations_overrun(page, overrun);
+    gb_figure_labels_overrun(page->figure, &page->layout, &page->text, overrun);
     const bool exact[2] = {overrun[1] <= 0.0 || isfinite(axis->low),
                            overrun[0] <= 0.0 || isfinite(axis->high)};
     if (axis->log || (exact[0] && exact[1])) {
