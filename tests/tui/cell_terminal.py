@@ -34,6 +34,12 @@ class Results:
                 print('\n'.join('# ' + line for line in [*faults, *rows]))
             sys.stdout.flush()
 
+    def end(self):
+        """By a limit of time: the terminals are closed."""
+        with self.lock:
+            self.stopped = True
+            print(f'Bail out! stopped after test {self.tests}', flush=True)
+
     def stop(self, text, rows):
         with self.lock:
             if not self.stopped:
@@ -82,7 +88,7 @@ class Terminal:
 
     def until(self, holds, what):
         end = time.monotonic() + PATIENCE_S
-        while not holds(self.capture()):
+        while self.results.stopped or not holds(self.capture()):
             if time.monotonic() > end or self.results.stopped:
                 self.results.stop(f'{what} ({self.mode})', self.rows)
             time.sleep(0.03)

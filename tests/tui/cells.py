@@ -12,6 +12,7 @@ is whole, ASCII is ASCII, and a terminal without colours gets none.
 """
 import concurrent.futures
 import re
+import signal
 import subprocess
 import sys
 
@@ -322,6 +323,7 @@ def main():
     modes = [word for word in sys.argv[3:] if word in MODES] or list(MODES)
     parts = [PARTS[word] for word in sys.argv[3:] if word in PARTS] or list(PARTS.values())
     results = Results()
+    signal.signal(signal.SIGTERM, lambda *_: results.end())
     with concurrent.futures.ThreadPoolExecutor(len(modes)) as pool:
         walks = [pool.submit(walk_mode, program, presets, mode, parts, results)
                  for mode in modes]

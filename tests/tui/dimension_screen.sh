@@ -1,5 +1,5 @@
 #!/bin/sh
-# Measured data of spheres, and then a scene of discs: they are not compared.  The header is
+# Measured data and replicas of spheres, and then a scene of discs: they are not compared.  The header is
 # about the run and not about what is edited.
 # Usage: dimension_screen.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
@@ -16,6 +16,13 @@ shows 'spheres are pressed' '✓ done'
 keys e "$here/lab.csv" Enter
 shows 'and compared with a measurement' '▲ measured, RMS misfit'
 shows 'in the message as well' 'lab.csv: 2 of 2 points reached'
+keys R C-u 2 Enter
+shows 'replicas come to their end' 'Result: replicas'
+keys Escape
+shows 'and their mean is drawn' 'R mean of 2 cells'
+keys '#'
+shows 'and has a row' '│ R mean'
+keys Escape
 
 # --- the header
 keys a
@@ -31,11 +38,13 @@ shows 'discs follow' '^ greenbody  discs of the test · N 150'
 keys r
 shows 'and are compressed' 'N 150 .*✓ done'
 hides 'the points are not over them' '▲ measured'
+hides 'nor is the mean' 'R mean'
 keys Tab
 shows 'the message says why' 'lab.csv: loaded for a scene in 3D, not compared'
 keys '#'
 shows 'the table' 'Densities of the curves'
 hides 'has no row of them' '│ measured'
+hides 'nor of the mean' '│ R mean'
 keys Escape e C-u "$here/lab.csv" Enter
 shows 'loaded again they are data of discs' '▲ measured'
 leaves 'quits'

@@ -115,6 +115,7 @@ keys -l 'mu,alpha'
 keys Enter
 term resize-window -x 200 -y 60
 shows "a failure of the fit is an event" 'No such'
+is "without the name of the program" has_not 's: calibration: greenbody'
 is "once, behind the one of its start" [ "$(screen | grep -c 's: calibration:')" -eq 2 ]
 term resize-window -x 80 -y 24
 until_true fits_80
