@@ -9,7 +9,7 @@ if ! LD_PRELOAD=$leap "$greenbody" --version >stdout 2>stderr; then
     exit 0
 fi
 export TMUX_TMPDIR=$here
-trap 'tmux -L clock kill-server 2>/dev/null; rm -rf "$here"' EXIT
+trap 'tmux -L clock kill-server 2>/dev/null; end_engines; rm -rf "$here"' EXIT
 
 # The rows without their seconds, the 14th column.
 rows() {

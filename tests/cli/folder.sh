@@ -4,11 +4,12 @@
 # said last lies in the files stdout and stderr.
 set -u
 . "$(dirname "$0")/../common/patience.sh"
+. "$(dirname "$0")/../common/engines.sh"
 
 greenbody=$1
 presets=$2
 here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
+trap 'end_engines; rm -rf "$here"' EXIT
 # By a limit of time: what it hung at.
 trap 'echo "# stopped after test $tests"; sed "s/^/# /" stderr stdout; exit 1' HUP INT TERM
 cd "$here" || exit 1

@@ -8,7 +8,7 @@
 
 mkdir disk || exit 1
 mount -t tmpfs -o size=4k none disk || exit 1
-trap 'umount "$here/disk"; rm -rf "$here"' EXIT
+trap 'end_engines; umount "$here/disk"; rm -rf "$here"' EXIT
 
 room() { # KiB
     mount -o "remount,size=${1}k" disk

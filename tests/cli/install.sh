@@ -18,6 +18,7 @@ put_back() {
     else
         rm -f "$list"
     fi
+    end_engines
     rm -rf "$here"
 }
 trap put_back EXIT

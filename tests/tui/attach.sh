@@ -3,15 +3,6 @@
 # Usage: attach.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
-other=
-parent=
-finish() {
-    term kill-server 2>/dev/null
-    [ -z "$parent" ] || kill -KILL "$parent" 2>/dev/null
-    [ -z "$other" ] || kill -KILL "$other" 2>/dev/null
-    rm -rf "$here"
-}
-
 opens() { # arguments of greenbody
     term respawn-pane -k "$greenbody $*; echo status=\$?; exec sleep 10000"
     shows "opens $1" 'Parameters'
@@ -26,7 +17,6 @@ term new-session -d -x 140 -y 40 'exec sleep 10000'
 # shellcheck disable=SC2086  # words
 sh -c 'pid=$1; shift; "$@" 2>/dev/null & echo $! >"$pid"; exec sleep 100000' sh "$here/pid" \
     "$greenbody" run $long output.checkpoint_every=0.1s --out "$here/run" &
-parent=$!
 until_true has_rows
 other=$(cat "$here/pid")
 is 'an engine without a screen' has_rows

@@ -9,6 +9,7 @@ saved=$here/config/greenbody/presets
 mkdir "$here/config" && mount -t tmpfs -o size=64k none "$here/config" || exit 1
 finish() {
     term kill-server 2>/dev/null
+    end_engines
     umount "$here/config"
     rm -rf "$here"
 }

@@ -6,11 +6,6 @@
 times=$3
 engine=
 
-finish() {
-    term kill-server 2>/dev/null
-    [ -z "$engine" ] || kill -KILL "$engine" 2>/dev/null
-    rm -rf "$here"
-}
 mkfifo "$here/input" || exit 1
 
 result() { # name, 0 when good

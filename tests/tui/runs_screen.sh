@@ -4,25 +4,11 @@
 . "$(dirname "$0")/terminal.sh"
 
 cd "$here" || exit 1
-pids=
-finish() {
-    term kill-server 2>/dev/null
-    for pid in $pids; do
-        kill -KILL "$pid" 2>/dev/null
-    done
-    rm -rf "$here"
-}
-
-pid_of() { # directory
-    python3 -c 'import json, sys
-print(json.load(open(sys.argv[1]))["pid"])' "$1/status.json"
-}
 
 begin() { # name: a run without a terminal
     # shellcheck disable=SC2086  # words
     setsid "$greenbody" run $long --quiet --out "$runs/$1" >/dev/null 2>&1 &
     is "$1 begins" until_true has_rows "$runs/$1"
-    pids="$pids $(pid_of "$runs/$1")"
 }
 
 listed() { # pattern among the lines of `greenbody runs`
@@ -98,7 +84,6 @@ keys d
 shows "d tells where it continues" 'continues without a terminal; .greenbody attach'
 shows "and leaves" 'status=0'
 is "the run is detached" until_true listed '^default-1  *detached [0-9]* %'
-pids="$pids $(pid_of "$runs/default-1")"
 before=$(rows "$runs/default-1")
 is "and goes on" until_true has_more_rows "$runs/default-1" "$before"
 start attach

@@ -33,12 +33,6 @@ print(json.load(open(sys.argv[1]))["pid"])' "$status" 2>/dev/null) &&
     done
 }
 
-finish() {
-    term kill-server 2>/dev/null
-    stop_runs
-    rm -rf "$here"
-}
-
 begin_task() { # number, what it does
     task=$1
     what=$2

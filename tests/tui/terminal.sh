@@ -4,6 +4,7 @@
 # time.
 set -u
 . "$(dirname "$0")/../common/patience.sh"
+. "$(dirname "$0")/../common/engines.sh"
 
 greenbody=$1
 presets=$2
@@ -26,8 +27,10 @@ stopped() {
     exit 1
 }
 
+# A run outlives its terminal.
 finish() {
     term kill-server 2>/dev/null
+    end_engines
     rm -rf "$here"
 }
 trap finish EXIT
