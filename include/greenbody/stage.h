@@ -12,7 +12,7 @@ enum gb_stage {
     GB_STAGE_NONE, /* a run without stages, or after the last one */
     GB_STAGE_FILLING,
     GB_STAGE_SETTLING, /* poured, not at rest yet; again under the lower gravity */
-    GB_STAGE_EASING,   /* gravity falls to its value at rest */
+    GB_STAGE_EASING,   /* gravity falls to its value in flattening */
     GB_STAGE_RESETTLING,
     GB_STAGE_FLATTENING,
     GB_STAGE_LIFTING, /* of the flattening punch */

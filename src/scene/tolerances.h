@@ -338,9 +338,10 @@
  * half the ramp. */
 #define GB_PUNCH_FOLLOWS_MIN 0.25
 
-/* Time constants of a drag on the powder while gravity is reduced and after it, as shares
- * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the
- * axis of the die without end: spheres at the wall roll, and no friction stops the others.
+/* Time constants of a drag on the powder while gravity is reduced and while it comes to rest,
+ * as shares of the time of the reduction; the second is that under gravity at rest and goes
+ * with one over the root of a higher one.  Without drag a bed of smooth spheres rotates about
+ * the axis of the die without end: spheres at the wall roll, and no friction stops the others.
  * Stronger: loose particles take long to fall. */
 #define GB_GRAVITY_RAMP_DRAG 0.1
 #define GB_REST_DRAG         1.0
@@ -349,6 +350,13 @@
  * loading.rest_time.  Without it the compact vibrates in the die and loose particles are
  * thrown off.  Stronger: it delays the springback. */
 #define GB_CYCLE_DRAG 0.1
+
+/* Powder is flattened under the gravity at rest times this power of the ratio of that of
+ * filling to it; its times go with one over the root of gravity.  0: most time steps of a
+ * filled die are those of flattening and of the rest behind it.  1: the weight of the bed
+ * presses about as much as the punch, and the top of the bed rises again behind it: the whole
+ * density is 0.002 to 0.006 lower, that of the central sphere the same. */
+#define GB_FLATTEN_GRAVITY (2.0 / 3.0)
 
 /* A particle pushed by the flattening punch rises by up to a quarter of this (d).
  * Larger: faster, and particles are thrown up. */

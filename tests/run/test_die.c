@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <glib.h>
@@ -8,6 +9,7 @@
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/experiment_private.h"
+#include "scene/tolerances.h"
 
 enum { POINTS_MOST = 64 };
 
@@ -315,6 +317,51 @@ static void test_resume(void)
     gb_record_finish(&resumed);
 }
 
+/* Steps of a stage, from its event; the events stand in the order of the stages. */
+static int64_t steps_of(const GString *events, const char *stage, const char **from)
+{
+    double us = 0.0;
+    int64_t steps = 0;
+    char *form = g_strdup_printf("%s after %%lf us, %%" G_GINT64_FORMAT " steps", stage);
+    const char *line = strstr(*from, stage);
+    if (!line || sscanf(line, form, &us, &steps) != 2) {
+        g_error("%s: no such event behind the others in\n%s", stage, events->str);
+    }
+    *from = line;
+    g_free(form);
+    return steps;
+}
+
+/* Powder is flattened under a raised gravity: that and the rest behind it take about as many
+ * steps as pouring, not some times as many; it rests under the lower one when it is
+ * pressed. */
+static void test_filling_steps(void)
+{
+    struct gb_error err = {0};
+    const struct gb_params params = die_params(NULL);
+    struct gb_experiment *experiment = NULL;
+    GString *events = g_string_new(NULL);
+    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_POINT) {
+    }
+    take_events(experiment, events);
+    const char *from = events->str;
+    const int64_t poured = steps_of(events, "poured", &from);
+    (void)steps_of(events, "gravity eased", &from);
+    (void)steps_of(events, "settled", &from);
+    const int64_t flattened = steps_of(events, "flattened", &from);
+    const int64_t rest = steps_of(events, "at rest", &from);
+    g_test_message("steps: poured %d, flattened %d, at rest %d", (int)poured,
+                   (int)flattened, (int)rest);
+    g_assert_cmpint(flattened + rest, <, poured + poured / 2);
+    const struct gb_bed *bed = experiment->loading->bed;
+    const double gravity = experiment->model->die.gravity;
+    const double weight = gravity * gb_bed_solid_volume(bed) / (M_PI / 6.0);
+    g_assert_cmpfloat(gb_bed_kinetic_energy(bed).translational, <, GB_REST_FALL * weight);
+    g_string_free(events, TRUE);
+    gb_experiment_destroy(experiment);
+}
+
 /* What a display is told of a run, slice by slice. */
 struct told {
     bool seen[GB_STAGES];
@@ -409,6 +456,7 @@ int main(int argc, char **argv)
     g_test_add_func("/die/whole", test_whole);
     g_test_add_func("/die/same_bits", test_same_bits);
     g_test_add_func("/die/stages", test_stages);
+    g_test_add_func("/die/filling_steps", test_filling_steps);
     g_test_add_func("/die/clogged", test_clogged);
     g_test_add_func("/die/step_above_critical", test_step_above_critical);
     g_test_add_func("/die/faults", test_faults);

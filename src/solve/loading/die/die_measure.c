@@ -4,6 +4,7 @@
 
 #include "solve/loading/die/die_cycle.h"
 #include "solve/loading/die/die_rest.h"
+#include "solve/loading/die/die_sequence.h"
 
 static void set(struct gb_stage_report *report, enum gb_stage_measure measure,
                 double value, double goal, double share)
@@ -42,19 +43,44 @@ static void pour(const struct gb_die_stages *stages, const struct gb_bed *bed,
     set_rest(stages, bed, report);
 }
 
+/* Coming to rest is three stages: under the gravity of flattening, while it falls, after
+ * that.  By their shares of time steps. */
+static void set_resting(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                        double from, double to, double share,
+                        struct gb_stage_report *report)
+{
+    report->stage = GB_STAGE_RESTING;
+    set_rest(stages, bed, report);
+    report->share = from + (to - from) * fmin(share, 1.0);
+}
+
+static void rest(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                 struct gb_stage_report *report)
+{
+    set_resting(stages, bed, 0.0, 0.8, stages->now.rest_share, report);
+}
+
 static void ease(const struct gb_die_stages *stages, const struct gb_bed *bed,
                  struct gb_stage_report *report)
 {
-    (void)bed;
+    const struct gb_die_sequence_ramp ramp = gb_die_sequence_ramp(stages);
+    const double share = stages->now.stage_time / ramp.length;
+    if (stages->now.flattened) {
+        set_resting(stages, bed, 0.8, 0.97, share, report);
+        return;
+    }
     report->stage = GB_STAGE_EASING;
-    set(report, GB_STAGE_MEASURE_GRAVITY,
-        stages->now.leapfrog.gravity / stages->scene.gravity, 1.0,
-        stages->now.stage_time / stages->scene.gravity_ramp);
+    set(report, GB_STAGE_MEASURE_GRAVITY, stages->now.leapfrog.gravity / ramp.to, 1.0,
+        share);
 }
 
 static void settle(const struct gb_die_stages *stages, const struct gb_bed *bed,
                    struct gb_stage_report *report)
 {
+    if (stages->now.flattened) {
+        set_resting(stages, bed, 0.97, 1.0, stages->now.rest_share, report);
+        return;
+    }
     report->stage = GB_STAGE_RESETTLING;
     set_rest(stages, bed, report);
 }
@@ -76,13 +102,6 @@ static void lift(const struct gb_die_stages *stages, const struct gb_bed *bed,
     const double left = stages->now.punch_from - bed->die.punch_position;
     report->stage = GB_STAGE_LIFTING;
     set(report, GB_STAGE_MEASURE_TRAVEL, goal - left, goal, 1.0 - left / goal);
-}
-
-static void rest(const struct gb_die_stages *stages, const struct gb_bed *bed,
-                 struct gb_stage_report *report)
-{
-    report->stage = GB_STAGE_RESTING;
-    set_rest(stages, bed, report);
 }
 
 /* Stages that record points end by the share of their row in die_cycle.c. */
@@ -193,16 +212,16 @@ double gb_die_measure_progress(const struct gb_die_stages *stages,
                                const struct gb_bed *bed)
 {
     static const double pressed[GB_STAGES + 1] = {
-        [GB_STAGE_FILLING] = 0.0,     [GB_STAGE_SETTLING] = 0.12,
-        [GB_STAGE_EASING] = 0.15,     [GB_STAGE_RESETTLING] = 0.18,
-        [GB_STAGE_FLATTENING] = 0.32, [GB_STAGE_LIFTING] = 0.45,
-        [GB_STAGE_RESTING] = 0.48,    [GB_STAGE_PRESS] = 0.8,
+        [GB_STAGE_FILLING] = 0.0,     [GB_STAGE_SETTLING] = 0.27,
+        [GB_STAGE_EASING] = 0.33,     [GB_STAGE_RESETTLING] = 0.36,
+        [GB_STAGE_FLATTENING] = 0.38, [GB_STAGE_LIFTING] = 0.43,
+        [GB_STAGE_RESTING] = 0.44,    [GB_STAGE_PRESS] = 0.61,
         [GB_STAGE_UNLOADING] = 1.0,
     };
     static const double full[GB_STAGES + 1] = {
-        [GB_STAGE_PRESS] = 0.3,   [GB_STAGE_UNLOADING] = 0.4,
-        [GB_STAGE_WITHDRAWAL] = 0.5, [GB_STAGE_CONFINED] = 0.52,
-        [GB_STAGE_EJECTION] = 0.6,   [GB_STAGE_EJECTED] = 0.94,
+        [GB_STAGE_PRESS] = 0.13,      [GB_STAGE_UNLOADING] = 0.25,
+        [GB_STAGE_WITHDRAWAL] = 0.38, [GB_STAGE_CONFINED] = 0.40,
+        [GB_STAGE_EJECTION] = 0.50,   [GB_STAGE_EJECTED] = 0.93,
         [GB_STAGES] = 1.0,
     };
     struct gb_stage_report now = {0};

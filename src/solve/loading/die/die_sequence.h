@@ -13,6 +13,13 @@ enum gb_die_sequence_state {
     GB_DIE_SEQUENCE_FAILED     /* neither; err says why */
 };
 
+/* Gravity is reduced twice, before flattening and behind it, by a constant factor in equal
+ * times: this reduction or the next one (d/T^2, T). */
+struct gb_die_sequence_ramp {
+    double from, to, length;
+};
+struct gb_die_sequence_ramp gb_die_sequence_ramp(const struct gb_die_stages *stages);
+
 void gb_die_sequence_enter(struct gb_die_stages *stages, enum gb_die_stages_stage stage);
 
 /* Puts the punch on the powder and starts the ramp of pressure; the bed gets the law of

@@ -11,18 +11,20 @@
 #include "solve/step_outcome.h"
 
 /* P3's experiment: powder falls through a funnel into the die, settles, is flattened by a
- * punch that is lifted again, and pressed.  Gravity is raised while it falls and reduced
- * afterwards: a fall by 0.1 mm would take a hundred times the time of pressing.  Steps of
- * gb_leapfrog between recorded points, with guards.  The bed belongs to the caller. */
+ * punch that is lifted again, comes to rest and is pressed.  Gravity is raised while it falls
+ * and reduced in two steps, before flattening and behind it: a fall by 0.1 mm would take a
+ * hundred times the time of pressing, and flattening under the last gravity ten times that of
+ * filling.  Steps of gb_leapfrog between recorded points, with guards.  The bed belongs to the
+ * caller. */
 struct gb_die_stages;
 
 enum gb_die_stages_stage {
     GB_DIE_STAGES_POUR,    /* until nothing is left in the funnel */
-    GB_DIE_STAGES_EASE,    /* gravity down to its value at rest */
-    GB_DIE_STAGES_SETTLE,  /* until the powder is at rest */
+    GB_DIE_STAGES_EASE,    /* gravity down to that of flattening; again to that at rest */
+    GB_DIE_STAGES_SETTLE,  /* until the powder is at rest; again: its height is H0 */
     GB_DIE_STAGES_FLATTEN, /* punch down by a little, slowly */
     GB_DIE_STAGES_LIFT,    /* and up again */
-    GB_DIE_STAGES_REST,    /* until the powder is at rest: its height is H0 */
+    GB_DIE_STAGES_REST,    /* until the powder is at rest; then EASE and SETTLE again */
     GB_DIE_STAGES_PRESS,   /* the punch carries the pressure of the ramp */
     GB_DIE_STAGES_OVER,
     /* A full cycle goes on instead, solve/loading/die/die_cycle.h; the numbers are in

@@ -26,6 +26,8 @@ struct gb_die_progress {
     /* For the display alone: the highest kinetic energy of the checks over its limit, and the
      * share of the way from there to rest. */
     double most_kinetic, rest_share;
+    bool flattened;     /* flattening has begun */
+    int64_t rest_from;  /* since_point when the punch had been lifted */
     double punch_from;  /* position of the punch when flattening began */
     double height0, next_record;
     bool at_point; /* the last step ended in a point */
