@@ -19,10 +19,10 @@ END
     chmod +x broken.sh
 }
 
-found() { # name, pattern of why.txt, seed, line of shell, seconds to make it smaller
+found() { # name, pattern of why.txt, seed, line of shell, seconds to make it smaller to 3 steps
     stand_in "$4"
     rm -rf kept
-    python3 "$life" --seed "$3" --cases 1 --shrink "${5:-0}" --keep kept --same-state "$same_state" \
+    python3 "$life" --seed "$3" --cases 1 --shrink "${5:-0}" --enough 3 --keep kept --same-state "$same_state" \
         ./broken.sh "$presets" >stdout 2>stderr
     [ $? -eq 1 ] && grep -q "^$2: " "kept/failed-$3/why.txt" && grep -q "^$3 failed" kept/seeds.log
     result "$1 is found" $?
@@ -50,7 +50,7 @@ found 'momentum from nowhere' momentum 52 '[ "$1" != export ] || {
 found 'a file that is left behind' files 8 '[ "$1" != run ] || touch "$out/state.h5.ab12cd"'
 # shellcheck disable=SC2016
 found 'a row that resume changes' '.*rows' 36 \
-    '[ "$1" != resume ] || sed -i "\$s/,0\.\([0-9]\)/,0.9\1/" "$out/curve.csv"' 20
+    '[ "$1" != resume ] || sed -i "\$s/,0\.\([0-9]\)/,0.9\1/" "$out/curve.csv"' "$patience_s"
 steps=$(grep -c '"do"' kept/failed-36/case.json)
 is 'and its case is made smaller' [ "$steps" -lt 4 ]
 kept/failed-36/replay.sh >stdout 2>stderr

@@ -2,7 +2,8 @@
 """Random life of runs: random scenes, random commands and disturbances, with what must hold.
 
 Usage: random_life.py [--seed N] [--seconds S] [--cases N] [--keep DIR]
-           [--shrink SECONDS] [--leap-clock FILE.so] --same-state PROGRAM GREENBODY PRESET_FOLDER
+           [--shrink SECONDS] [--enough STEPS] [--leap-clock FILE.so] --same-state PROGRAM
+           GREENBODY PRESET_FOLDER
        random_life.py --replay CASE.json ... GREENBODY PRESET_FOLDER
 
 Each case follows from its seed.  DIR/seeds.log has the seeds done, so that the same command goes
@@ -56,7 +57,7 @@ def keep(tools, directory, case, why):
         broken = live(tools, trial, less)[1]
         return broken.name if broken else None
 
-    case = shrink(case, failure_of, tools.shrink)
+    case = shrink(case, failure_of, tools.shrink, tools.enough)
     last = next((broken for _ in range(5) if (broken := live(tools, trial, case)[1])), why)
     target = os.path.join(directory, f'failed-{case["seed"]}')
     shutil.rmtree(target, ignore_errors=True)
@@ -130,6 +131,7 @@ def main():
     parser.add_argument('--cases', type=int, default=10 ** 9)
     parser.add_argument('--keep')
     parser.add_argument('--shrink', type=float, default=120, metavar='SECONDS')
+    parser.add_argument('--enough', type=int, default=0, metavar='STEPS')
     parser.add_argument('--replay')
     parser.add_argument('--leap-clock')
     parser.add_argument('--same-state', required=True)

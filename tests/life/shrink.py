@@ -20,11 +20,12 @@ def _smaller(case):
             yield less
 
 
-def shrink(case, failure_of, seconds, attempts=3):
+def shrink(case, failure_of, seconds, enough=0, attempts=3):
     """The smallest case found with the failure of `case`.
 
     failure_of: case -> name of its failure or None; moments are random, so that a smaller case
-    counts as good only after `attempts`.  Ends after `seconds` at the latest (and a case more).
+    counts as good only after `attempts`.  Ends with at most `enough` steps, and after `seconds` at
+    the latest (and a case more).
     """
     name = failure_of(case)
     for _ in range(attempts - 1):
@@ -39,6 +40,6 @@ def shrink(case, failure_of, seconds, attempts=3):
             if time.monotonic() > end:
                 return case
             if any(failure_of(less) == name for _ in range(attempts)):
-                case, smaller = less, True
+                case, smaller = less, len(less['steps']) > enough
                 break
     return case
