@@ -72,6 +72,35 @@ static void test_scale_bar(void)
                                    2e-9, 1e-20);
 }
 
+/* On the page of a panel 4 cm wide the text of the scale bar ends before the axes. */
+static void test_scale_bar_text(void)
+{
+    struct gb_state *state = small_packing_make(3);
+    struct gb_packing_image packing_image;
+    struct gb_caption_layout layout;
+    gb_packing_image_init(&packing_image);
+    packing_image.per_inch = 150;
+    packing_image.width = 236;
+    packing_image.height = 220;
+    struct gb_scene *scene = small_packing_scene(&packing_image, state, &layout);
+    struct gb_image *image = small_packing_paint(&packing_image, state);
+    g_assert_cmpfloat(layout.unit, >, 0.0);
+    const int row = image->height - (int)(1.4 * layout.unit);
+    int text = 0;
+    for (int y = row - (int)(0.5 * layout.unit); y < row + (int)(0.5 * layout.unit);
+         y++) {
+        for (int x = 0; x < image->width; x++) {
+            const bool ink = small_packing_pixel(image, x, y)[0] < 128;
+            text += ink && x < (int)layout.axes.left;
+            g_assert_false(ink && fabs(x - layout.axes.left) < 2.0);
+        }
+    }
+    g_assert_cmpint(text, >, 100);
+    gb_image_destroy(image);
+    gb_scene_destroy(scene);
+    gb_state_destroy(state);
+}
+
 /* A column that is four times as high as wide, and the other way round. */
 static struct gb_state *column(double width, double height)
 {
@@ -293,6 +322,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/colour-bar", test_colour_bar);
     g_test_add_func("/draw/snapshot/one-value", test_one_value);
     g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
+    g_test_add_func("/draw/snapshot/scale-bar-text", test_scale_bar_text);
     g_test_add_func("/draw/snapshot/crop", test_crop);
     g_test_add_func("/draw/snapshot/print-size", test_print_size);
     g_test_add_func("/draw/snapshot/glyph-height", test_glyph_height);

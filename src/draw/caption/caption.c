@@ -20,20 +20,25 @@ double gb_caption_bar_length(double max_m, char *label, size_t size)
 
 /* In perspective the bar is valid in one plane only: the middle of the box. */
 static void draw_scale_bar(const struct gb_caption_pen *pen, const struct gb_scene *scene,
-                           const struct gb_state *state, double x, double y, double most)
+                           const struct gb_state *state, double x, double y, double most,
+                           double end)
 {
     char label[64];
-    char text[96];
+    char words[96], shorter[96];
     const double pixel_per_metre = gb_view_scale(&scene->view) / state->metre_per_length;
     const double length =
         gb_caption_bar_length(most / pixel_per_metre, label, sizeof label) *
         pixel_per_metre;
-    snprintf(text, sizeof text, "%s%s", label,
+    const double left = x + length + 0.6 * pen->unit;
+    snprintf(words, sizeof words, "%s%s", label,
              scene->view.orthographic ? "" : " at mid-depth");
+    snprintf(shorter, sizeof shorter, "%s%s", label,
+             scene->view.orthographic ? "" : ", middle");
+    const char *const texts[] = {words, shorter, label, NULL};
     gb_caption_pen_set_foreground(pen);
     cairo_rectangle(pen->cairo, x, y - 0.14 * pen->unit, length, 0.28 * pen->unit);
     cairo_fill(pen->cairo);
-    gb_caption_pen_line(pen, text, x + length + 0.6 * pen->unit, y, 0.0, 0.85, 0.0);
+    gb_caption_pen_line_that_fits(pen, texts, left, y, 0.0, 0.85, end - left);
 }
 
 /* Density and pressure, in words or, where these do not fit, in symbols. */
@@ -43,7 +48,8 @@ static void draw_point(const struct gb_caption_pen *pen, const struct gb_state *
     char words[160], symbols[96], pressure[48] = "";
     const double density = state->point.density;
     if (isfinite(state->point.p_pa)) {
-        gb_caption_number_format(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
+        gb_caption_number_format(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure,
+                                 sizeof pressure);
         snprintf(words, sizeof words, "relative density %.3f     pressure %s", density,
                  pressure);
         snprintf(symbols, sizeof symbols, "\xcf\x81 %.3f   p %s", density, pressure);
@@ -68,7 +74,7 @@ static void draw_all(const struct gb_caption_pen *pen, const struct gb_image *im
     }
     draw_point(pen, state, left, image->height - 2.9 * unit, layout->axes.left - left);
     draw_scale_bar(pen, scene, state, left, image->height - 1.4 * unit,
-                   fmin(9.0 * unit, 0.3 * image->width));
+                   fmin(9.0 * unit, 0.3 * image->width), layout->axes.left);
     gb_orientation_draw_axes(pen, &layout->axes, &scene->view, state->dimension);
     const double taken = gb_orientation_draw_load(
         pen, scene, (const double[2]){image->width - left, 1.5 * unit});
