@@ -7,6 +7,7 @@ Every command has a line of the table of commands, and every line a command; so 
 status.  Every key of the
 table of keys, which is a selection, is a key of the workbench.  Figures, commands, presets and tests
 that the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
+Every picture of assets is shown by a page and has a row of CONTRIBUTING.md.
 """
 import pathlib
 import re
@@ -27,6 +28,8 @@ def rows(text, header):
             return
         yield line.split('|')[1]
 
+
+PICTURES = '| picture | runs, then the command with `-o` and its file |'
 
 # "  rdf   radial distribution function (P1 Fig. 4, 7)"
 FIGURE = re.compile(r'^  ([a-z-]+) +\S.*?(?: \((P[123] [^)]*)\))?$')
@@ -96,6 +99,25 @@ def wrong_pages(source, known, commands):
             yield f'papers.md: no line for the figure {name}, {paper}'
 
 
+def wrong_pictures(source):
+    """One line for each picture of assets that no page shows, or that nothing says how to make."""
+    shown = set()
+    for page in [source / 'README.md', *sorted(source.glob('docs/*.md'))]:
+        shown |= set(re.findall(r'\]\((?:\.\./)?assets/([\w.-]+\.png)\)',
+                                page.read_text(encoding='utf-8')))
+    recipe = (source / 'CONTRIBUTING.md').read_text(encoding='utf-8')
+    made = {name for cell in rows(recipe, PICTURES) for name in re.findall(r'`(.+?)`', cell)}
+    there = {path.name for path in (source / 'assets').glob('*.png')}
+    for name in sorted(there | shown | made):
+        for names, wrong in ((there, 'assets has no'), (shown, 'no page shows'),
+                             (made, 'CONTRIBUTING.md does not say how to make')):
+            if name not in names:
+                yield f'{wrong} {name}'
+    for path in sorted((source / 'assets').glob('*.png')):
+        if path.stat().st_size > 600000:
+            yield f'{path.name}: more than 600 kB'
+
+
 def main():
     text = (pathlib.Path(sys.argv[1]) / 'docs/manual.md').read_text(encoding='utf-8')
     commands = {line.split()[0] for line in asked(sys.argv[2], '--commands')}
@@ -116,6 +138,7 @@ def main():
     known = figures(sys.argv[2])
     wrong += [f'docs/{line}' for line in wrong_pages(pathlib.Path(sys.argv[1]), known, commands)]
     wrong += wrong_tests(pathlib.Path(sys.argv[1]))
+    wrong += wrong_pictures(pathlib.Path(sys.argv[1]))
     if not known:
         wrong.append('plot --help: no list of figures')
     for line in wrong:
