@@ -96,7 +96,7 @@ fi
 
 names_data() { # program: the numbers of the papers, too
     as_other "$1" papers --only no-such --out "$here/out/p"
-    ! grep -q 'papers.csv' stderr
+    [ $? -eq 2 ] && grep -q 'no-such' stderr && ! grep -q 'papers.csv' stderr
 }
 is 'the numbers of the papers are found' names_data "$root/bin/greenbody"
 
