@@ -59,6 +59,8 @@ large() {
         >stdout 2>stderr
 }
 is 'a seed above 2^53' large
+is 'is found again for the table, with the next one' \
+    [ "$(grep -c 'needs 2 seeds' stdout) $(grep -c 'evaluations  seeds' stdout)" = '0 1' ]
 is 'keeps its value' [ "$(grep -c ',9007199254740993,0,' large/runs.csv)" -eq 3 ]
 is 'as the next one does' [ "$(grep -c ',9007199254740994,0,' large/runs.csv)" -eq 3 ]
 cp large/runs.csv large.csv
