@@ -245,7 +245,8 @@ static struct gb_params random_scene(GRand *random)
     switch (cases_choice(random, 5)) {
     case 0:
         return scene_params(seed, "contact.bridge_length=0.08 nm",
-                            "contact.shear_strength=30 MPa",
+                            "contact.shear_strength=30 MPa", "numerics.cutoff=12 nm",
+                            "structure.r_meso=19.4 nm",
                             "loading.unload_from=100 MPa; 300 MPa", NULL);
     case 1:
         return scene_params(seed, "scene.dimension=2", "contact.alpha=0.3", NULL);
