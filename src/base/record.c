@@ -33,7 +33,8 @@ size_t gb_record_type_size(enum gb_record_type type)
 
 size_t gb_record_bytes(const struct gb_record_item *item)
 {
-    return (size_t)item->rows * (size_t)item->columns * gb_record_type_size(item->type);
+    return (size_t)item->rows * (size_t)item->columns *
+           (item->f32 ? sizeof(float) : gb_record_type_size(item->type));
 }
 
 const struct gb_record_item *gb_record_find(const struct gb_record *record,
@@ -47,9 +48,15 @@ const struct gb_record_item *gb_record_find(const struct gb_record *record,
     return NULL;
 }
 
-struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
-                                     enum gb_record_type type, int64_t rows, int columns,
-                                     const char *unit, struct gb_error *err)
+/* What an item holds, and how. */
+struct content {
+    enum gb_record_type type;
+    bool f32;
+};
+
+static struct gb_record_item *add(struct gb_record *record, const char *name,
+                                  struct content content, int64_t rows, int columns,
+                                  const char *unit, struct gb_error *err)
 {
     const size_t length = strlen(name);
     const size_t unit_length = strlen(unit);
@@ -62,7 +69,8 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
     struct gb_record_item *item = &record->item[record->count];
     memcpy(item->name, name, length + 1); /* about 100 items at every recorded point */
     memcpy(item->unit, unit, unit_length + 1);
-    item->type = type;
+    item->type = content.type;
+    item->f32 = content.f32;
     item->rows = rows;
     item->columns = columns;
     const size_t bytes = gb_record_bytes(item);
@@ -77,6 +85,29 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
     }
     record->count++;
     return item;
+}
+
+struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
+                                     enum gb_record_type type, int64_t rows, int columns,
+                                     const char *unit, struct gb_error *err)
+{
+    return add(record, name, (struct content){type, false}, rows, columns, unit, err);
+}
+
+struct gb_record_item *gb_record_add_f32(struct gb_record *record, const char *name,
+                                            int64_t rows, int columns, const char *unit,
+                                            struct gb_error *err)
+{
+    return add(record, name, (struct content){GB_RECORD_DOUBLE, true}, rows, columns,
+               unit, err);
+}
+
+void gb_record_numbers(const struct gb_record_item *item, int64_t first, int64_t count,
+                       double *to)
+{
+    for (int64_t k = 0; k < count; k++) {
+        to[k] = gb_record_number(item, first + k);
+    }
 }
 
 static bool check_shape(const struct gb_record_item *item, const char *name,
@@ -141,7 +172,9 @@ static bool load(const struct gb_record *record, const char *name,
 {
     const struct gb_record_item *item =
         item_to_load(record, name, type, rows, columns, err);
-    if (item && rows > 0) {
+    if (item && item->f32) {
+        gb_record_numbers(item, 0, rows * columns, data);
+    } else if (item && rows > 0) {
         memcpy(data, item->data, gb_record_bytes(item));
     }
     return item != NULL;
@@ -172,14 +205,12 @@ bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows, int
     const bool loading = record->loading;
     const struct gb_record_item *item =
         loading ? item_to_load(record, name, GB_RECORD_DOUBLE, rows, columns, err)
-                : gb_record_add(record, name, GB_RECORD_DOUBLE, rows, columns, unit, err);
-    double *number = item ? item->data : NULL;
-    for (int64_t k = 0; item && k < count; k++) {
-        if (loading) {
-            data[k] = (float)number[k];
-        } else {
-            number[k] = (double)data[k];
-        }
+                : gb_record_add_f32(record, name, rows, columns, unit, err);
+    if (item && !loading && count > 0) {
+        memcpy(item->data, data, gb_record_bytes(item));
+    }
+    for (int64_t k = 0; item && loading && k < count; k++) {
+        data[k] = (float)gb_record_number(item, k);
     }
     return item != NULL;
 }
@@ -201,8 +232,9 @@ bool gb_record_members(struct gb_record *record, const struct gb_record_member *
 static bool add_copy(struct gb_record *record, const char *name,
                      const struct gb_record_item *from, struct gb_error *err)
 {
-    struct gb_record_item *item = gb_record_add(record, name, from->type, from->rows,
-                                                from->columns, from->unit, err);
+    struct gb_record_item *item =
+        add(record, name, (struct content){from->type, from->f32}, from->rows,
+            from->columns, from->unit, err);
     if (item && from->rows > 0) {
         memcpy(item->data, from->data, gb_record_bytes(from));
     }
@@ -246,14 +278,36 @@ void gb_record_remove(struct gb_record *record, const char *prefix)
     record->count = kept;
 }
 
+/* Of two items of doubles, at least one of them of floats. */
+static bool numbers_differ(const struct gb_record_item *a, const struct gb_record_item *b,
+                           int64_t row)
+{
+    for (int64_t k = row * a->columns; k < (row + 1) * a->columns; k++) {
+        const double one = gb_record_number(a, k), other = gb_record_number(b, k);
+        if (memcmp(&one, &other, sizeof one) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool rows_differ(const struct gb_record_item *a, const struct gb_record_item *b,
+                        int64_t row)
+{
+    if (a->f32 || b->f32) {
+        return numbers_differ(a, b, row);
+    }
+    const size_t bytes = (size_t)a->columns * gb_record_type_size(a->type);
+    return memcmp((const char *)a->data + (size_t)row * bytes,
+                  (const char *)b->data + (size_t)row * bytes, bytes) != 0;
+}
+
 static int64_t first_other_row(const struct gb_record_item *a,
                                const struct gb_record_item *b)
 {
-    const size_t bytes = (size_t)a->columns * gb_record_type_size(a->type);
-    const char *one = a->data, *other = b->data;
     const int64_t rows = a->rows < b->rows ? a->rows : b->rows;
     for (int64_t i = 0; i < rows; i++) {
-        if (memcmp(one + (size_t)i * bytes, other + (size_t)i * bytes, bytes) != 0) {
+        if (rows_differ(a, b, i)) {
             return i;
         }
     }
@@ -282,21 +336,42 @@ const char *gb_record_difference(const struct gb_record *a, const struct gb_reco
     return NULL;
 }
 
+static const uint64_t prime = 1099511628211u;
+
+static uint64_t hash_word(uint64_t hash, uint64_t word)
+{
+    hash = (hash ^ word) * prime;
+    return hash ^ hash >> 32;
+}
+
 /* FNV-1a by words of eight bytes: byte by byte it would take as long as writing the
  * file. */
 static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 {
-    const uint64_t prime = 1099511628211u;
     const char *byte = data;
     size_t i = 0;
     for (; i + 8 <= size; i += 8) {
         uint64_t word;
         memcpy(&word, byte + i, sizeof word);
-        hash = (hash ^ word) * prime;
-        hash ^= hash >> 32;
+        hash = hash_word(hash, word);
     }
     for (; i < size; i++) {
         hash = (hash ^ (unsigned char)byte[i]) * prime;
+    }
+    return hash;
+}
+
+/* An f32 item hashes as the doubles of its file. */
+static uint64_t hash_content(uint64_t hash, const struct gb_record_item *item)
+{
+    if (!item->f32) {
+        return hash_bytes(hash, item->data, gb_record_bytes(item));
+    }
+    for (int64_t k = 0; k < item->rows * item->columns; k++) {
+        const double number = gb_record_number(item, k);
+        uint64_t word;
+        memcpy(&word, &number, sizeof word);
+        hash = hash_word(hash, word);
     }
     return hash;
 }
@@ -310,7 +385,7 @@ uint64_t gb_record_hash(const struct gb_record *record)
         uint64_t hash = 14695981039346656037u;
         hash = hash_bytes(hash, item->name, strlen(item->name));
         hash = hash_bytes(hash, shape, sizeof shape);
-        hash = hash_bytes(hash, item->data, gb_record_bytes(item));
+        hash = hash_content(hash, item);
         sum += hash;
     }
     return sum;

@@ -25,6 +25,7 @@ struct gb_record_item {
     char name[GB_RECORD_NAME]; /* "world/position" */
     char unit[GB_RECORD_UNIT];
     enum gb_record_type type;
+    bool f32; /* doubles that are floats in memory, as the engine has them */
     int columns;
     int64_t rows;
     void *data;  /* rows x columns */
@@ -43,7 +44,7 @@ void gb_record_finish(struct gb_record *record);
 void gb_record_clear(struct gb_record *record);
 
 size_t gb_record_type_size(enum gb_record_type type);
-/* Bytes of an item. */
+/* Bytes of an item in memory. */
 size_t gb_record_bytes(const struct gb_record_item *item);
 
 /* NULL when there is none. */
@@ -55,13 +56,29 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
                                      enum gb_record_type type, int64_t rows, int columns,
                                      const char *unit, struct gb_error *err);
 
+/* The same for doubles that are kept as floats. */
+struct gb_record_item *gb_record_add_f32(struct gb_record *record, const char *name,
+                                            int64_t rows, int columns, const char *unit,
+                                            struct gb_error *err);
+
+/* Number k of an item of doubles, row by row. */
+static inline double gb_record_number(const struct gb_record_item *item, int64_t k)
+{
+    return item->f32 ? (double)((const float *)item->data)[k]
+                        : ((const double *)item->data)[k];
+}
+
+/* `count` numbers of an item of doubles from `first` on. */
+void gb_record_numbers(const struct gb_record_item *item, int64_t first, int64_t count,
+                       double *to);
+
 /* Copies data into the record, or out of it.  Loading, an item that is missing or of
  * another shape is GB_ERR_INPUT. */
 bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_type type,
                      int64_t rows, int columns, const char *unit, void *data,
                      struct gb_error *err);
 
-/* The same for floats in memory, which are doubles in the record. */
+/* The same for floats in memory, which are doubles of an f32 item. */
 bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows, int columns,
                    const char *unit, float *data, struct gb_error *err);
 
@@ -92,11 +109,12 @@ bool gb_record_nest(struct gb_record *record, const char *prefix, struct gb_reco
 void gb_record_remove(struct gb_record *record, const char *prefix);
 
 /* Name of the first item in which the two differ, and its first row that does; NULL when
- * they are equal to the last bit. */
+ * they are equal to the last bit, f32 or not. */
 const char *gb_record_difference(const struct gb_record *a, const struct gb_record *b,
                                  int64_t *row);
 
-/* 64-bit hash over names, shapes and content, whatever the order of the items. */
+/* 64-bit hash over names, shapes and content, whatever the order of the items; f32 items
+ * count as doubles. */
 uint64_t gb_record_hash(const struct gb_record *record);
 
 #endif

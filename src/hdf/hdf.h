@@ -21,7 +21,8 @@ enum gb_hdf_type {
     GB_HDF_INT32,
     GB_HDF_INT64,
     GB_HDF_UINT64,
-    GB_HDF_UINT8
+    GB_HDF_UINT8,
+    GB_HDF_FLOAT /* doubles of a file that are floats in memory */
 };
 
 /* An empty file in memory, which gb_hdf_store writes to path.  After that only

@@ -56,7 +56,8 @@ bool gb_hdf_record_put(struct gb_hdf *file, const struct gb_record *record,
         char name[GB_HDF_LIST_NAME];
         snprintf(name, sizeof name, "%s/%s", group, item->name);
         const struct gb_hdf_array array = {.name = name,
-                                           .type = hdf_type(item->type),
+                                           .type = item->f32 ? GB_HDF_FLOAT
+                                                                : hdf_type(item->type),
                                            .rows = item->rows,
                                            .columns = item->columns,
                                            .unit = item->unit};

@@ -11,6 +11,8 @@ hid_t gb_hdf_types_memory(enum gb_hdf_type type)
         return H5T_NATIVE_INT64;
     case GB_HDF_UINT64:
         return H5T_NATIVE_UINT64;
+    case GB_HDF_FLOAT:
+        return H5T_NATIVE_FLOAT;
     default:
         return H5T_NATIVE_UINT8;
     }
@@ -20,6 +22,7 @@ hid_t gb_hdf_types_file(enum gb_hdf_type type)
 {
     switch (type) {
     case GB_HDF_DOUBLE:
+    case GB_HDF_FLOAT:
         return H5T_IEEE_F64LE;
     case GB_HDF_INT32:
         return H5T_STD_I32LE;

@@ -39,7 +39,11 @@ static void copy(void)
         if (to == NULL) {
             abort();
         }
-        memcpy(to->data, from->data, gb_record_bytes(from));
+        if (from->f32) {
+            gb_record_numbers(from, 0, from->rows * from->columns, to->data);
+        } else {
+            memcpy(to->data, from->data, gb_record_bytes(from));
+        }
     }
 }
 

@@ -102,9 +102,9 @@ void gb_state_optional_free(struct gb_state *state)
     }
 }
 
-/* Three of `columns` numbers for each particle, arcs as angles. */
+/* Three numbers of each row of the item, arcs as angles. */
 static void fill(struct gb_state *state, const struct optional_row *row,
-                 const double *data, int columns)
+                 const struct gb_record_item *item)
 {
     double *to = *member_of(state, row);
     for (int64_t i = 0; i < state->count; i++) {
@@ -113,7 +113,7 @@ static void fill(struct gb_state *state, const struct optional_row *row,
                               : row->power > 0                           ? diameter
                                                                          : 1.0 / diameter;
         for (int c = 0; c < row->columns; c++) {
-            to[row->columns * i + c] = factor * data[columns * i + c];
+            to[row->columns * i + c] = factor * gb_record_number(item, item->columns * i + c);
         }
     }
 }
@@ -144,7 +144,7 @@ bool gb_state_optional_take(struct gb_state *state, const struct gb_record *reco
         if (!allocate(state, &rows[k], err)) {
             return false;
         }
-        fill(state, &rows[k], item->data, item->columns);
+        fill(state, &rows[k], item);
     }
     return true;
 }
@@ -225,7 +225,9 @@ static bool read_item(struct gb_state *state, const struct optional_row *row,
     const bool done = data != NULL && gb_hdf_get_array(file, &shape, data, err) &&
                       allocate(state, row, err);
     if (done) {
-        fill(state, row, data, columns);
+        fill(state, row,
+             &(struct gb_record_item){
+                 .rows = state->count, .columns = columns, .data = data});
     }
     gb_alloc_free(data);
     return done;

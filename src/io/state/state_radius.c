@@ -58,15 +58,16 @@ bool gb_state_radius_fill(struct gb_state *state, const struct gb_record *record
     if (!gb_state_optional_allocate(state, &state->contact_radius, err)) {
         return false;
     }
-    const double *deepest = item->data; /* the first number of a history */
     const struct gb_cell cell = gb_state_cell(state);
     const struct gb_bed_law law =
         in_die ? gb_filling_compaction_law(params) : (struct gb_bed_law){0};
     for (int64_t k = 0; k < state->pair_count; k++) {
         const double overlap = overlap_of(state, &cell, k);
+        /* the first number of a history */
+        const double deepest = gb_record_number(item, k * item->columns);
         state->contact_radius[k] =
-            in_die ? bed_radius(state, &law, k, overlap, deepest[k])
-                   : cell_radius(state, model, k, overlap, deepest[k * item->columns]);
+            in_die ? bed_radius(state, &law, k, overlap, deepest)
+                   : cell_radius(state, model, k, overlap, deepest);
     }
     return true;
 }

@@ -24,7 +24,9 @@ static bool take(const struct gb_record *record, const char *name,
         return gb_error_set(err, GB_ERR_INPUT, "%s: is missing or of another shape",
                             name);
     }
-    if (rows > 0) {
+    if (item->f32) {
+        gb_record_numbers(item, 0, rows * columns, data);
+    } else if (rows > 0) {
         memcpy(data, item->data, gb_record_bytes(item));
     }
     return true;
@@ -84,7 +86,6 @@ static bool take_tensors(const struct gb_record *record, struct gb_state *state,
 static void fill_pairs(struct gb_state *state, const struct gb_cell *cell,
                        const struct gb_record_item *history)
 {
-    const double *value = history->data; /* the first one of a row is the deepest */
     for (int64_t k = 0; k < state->pair_count; k++) {
         const int32_t *pair = state->pair + 2 * k;
         const double *a = state->position + 3 * (int64_t)pair[0];
@@ -93,7 +94,8 @@ static void fill_pairs(struct gb_state *state, const struct gb_cell *cell,
         gb_cell_nearest(cell, r);
         state->pair_normal[k] =
             gb_vec_dot(state->pair_force + 3 * k, r) / gb_vec_length(r);
-        state->pair_bridged[k] = value[k * history->columns] > 0.0;
+        /* the first number of a row is the deepest overlap */
+        state->pair_bridged[k] = gb_record_number(history, k * history->columns) > 0.0;
         state->contacts[pair[0]]++;
         state->contacts[pair[1]]++;
     }

@@ -201,11 +201,13 @@ static bool load_forces(struct gb_world *world, const struct gb_record *record,
         return gb_error_set(err, GB_ERR_INPUT, "%s: does not fit the contacts",
                             forces_name);
     }
-    const double *force = gb_record_find(record, forces_name)->data;
+    const struct gb_record_item *item = gb_record_find(record, forces_name);
+    int64_t row = 0;
     for (int64_t k = 0; k < slots; k++) {
         if (gb_contacts_touch(&engine->contacts, k)) {
+            double force[3];
+            gb_record_numbers(item, 3 * row++, 3, force);
             gb_pair_results_set_force(&engine->pair, k, force);
-            force += 3;
         }
     }
     return true;
@@ -248,22 +250,59 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
     return gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
+/* An item of vectors that are floats in an engine in single precision. */
+static struct gb_record_item *add_vectors(const struct gb_engine *engine,
+                                          struct gb_record *record, const char *name,
+                                          int64_t rows, const char *unit,
+                                          struct gb_error *err)
+{
+    return gb_engine_is_f32(engine)
+               ? gb_record_add_f32(record, name, rows, 3, unit, err)
+               : gb_record_add(record, name, GB_RECORD_DOUBLE, rows, 3, unit, err);
+}
+
+static void put_vector(struct gb_record_item *item, int64_t row, const double vector[3])
+{
+    for (int c = 0; c < 3; c++) {
+        if (item->f32) {
+            ((float *)item->data)[3 * row + c] = (float)vector[c];
+        } else {
+            ((double *)item->data)[3 * row + c] = vector[c];
+        }
+    }
+}
+
 static bool save_forces(const struct gb_world *world, struct gb_record *record,
                         struct gb_error *err)
 {
     const struct gb_engine *engine = &world->engine;
     const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
     struct gb_record_item *item =
-        gb_record_add(record, forces_name, GB_RECORD_DOUBLE,
-                      world->checkpoint_history.count, 3, "E d^2", err);
-    double *force = item ? item->data : NULL;
+        add_vectors(engine, record, forces_name, world->checkpoint_history.count, "E d^2",
+                    err);
     struct gb_pair_forces forces;
+    int64_t row = 0;
     gb_pair_forces_init(&forces, world, GB_PAIR_FORCES_NEAR);
     for (int64_t k = 0; item && k < slots; k++) {
         if (gb_contacts_touch(&engine->contacts, k)) {
+            double force[3];
             gb_pair_forces_at(&forces, k, force);
-            force += 3;
+            put_vector(item, row++, force);
         }
+    }
+    return item != NULL;
+}
+
+/* Forces or torques on the particles. */
+static bool save_vectors(const struct gb_world *world, struct gb_record *record,
+                         const char *name, const char *unit, const double *vector,
+                         struct gb_error *err)
+{
+    const int64_t count = world->engine.particles.count;
+    struct gb_record_item *item =
+        add_vectors(&world->engine, record, name, count, unit, err);
+    for (int64_t i = 0; item && i < count; i++) {
+        put_vector(item, i, vector + 3 * i);
     }
     return item != NULL;
 }
@@ -288,9 +327,8 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
            gb_contact_history_record(history, engine, record, &gb_contact_history_world,
                                      err) &&
            save_forces(world, record, err) &&
-           record_vectors(world, record, "world/force", "E d^2", particles->force, err) &&
-           record_vectors(world, record, "world/torque", "E d^3", particles->torque,
-                          err) &&
+           save_vectors(world, record, "world/force", "E d^2", particles->force, err) &&
+           save_vectors(world, record, "world/torque", "E d^3", particles->torque, err) &&
            gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
