@@ -138,30 +138,77 @@ static void write_item(void *data, int64_t t)
                gb_share(count, (int)t + 1, parts), transfer->history->begin[t]);
 }
 
+/* The first contact of each part in `begin`, and behind them their number: 0 without
+ * lists. */
+static bool count_parts(struct transfer *transfer, struct gb_error *err)
+{
+    const struct gb_engine *engine = transfer->engine;
+    struct gb_contact_history *history = transfer->history;
+    const bool lists = engine->state.lists != GB_ENGINE_NO_LISTS;
+    const int parts = lists ? gb_team_size(engine->team) : 1;
+    transfer->count = lists ? engine->particles.count : 0;
+    if (!reserve_parts(history, parts, err)) {
+        return false;
+    }
+    int64_t *begin = history->begin;
+    begin[0] = 0;
+    gb_team_run(engine->team, parts, count_item, transfer);
+    for (int t = 0; t < parts; t++) {
+        begin[t + 1] += begin[t];
+    }
+    return true;
+}
+
 bool gb_contact_history_write(struct gb_contact_history *history,
                               const struct gb_engine *engine, struct gb_error *err)
 {
     const bool lists = engine->state.lists != GB_ENGINE_NO_LISTS;
     const int planes = lists ? engine->contacts.kept : 1;
-    const int parts = lists ? gb_team_size(engine->team) : 1;
-    const int64_t count = lists ? engine->particles.count : 0;
-    if (!reserve_parts(history, parts, err)) {
+    struct transfer transfer = {history, engine, 0};
+    if (!count_parts(&transfer, err) ||
+        !gb_contact_history_reserve(history, history->begin[history->parts], planes,
+                                    engine->state.real, err)) {
         return false;
     }
-    int64_t *begin = history->begin;
-    struct transfer transfer = {history, engine, count};
-    begin[0] = 0;
-    gb_team_run(engine->team, parts, count_item, &transfer);
-    for (int t = 0; t < parts; t++) {
-        begin[t + 1] += begin[t];
-    }
-    if (!gb_contact_history_reserve(history, begin[parts], planes, engine->state.real,
-                                    err)) {
-        return false;
-    }
-    gb_team_run(engine->team, parts, write_item, &transfer);
-    history->count = begin[parts];
+    gb_team_run(engine->team, history->parts, write_item, &transfer);
+    history->count = history->begin[history->parts];
     return true;
+}
+
+/* Items of a record as the memory of a history; false without memory. */
+static bool add_items(struct gb_contact_history *history, struct gb_record *record,
+                      const struct gb_contact_history_names *names, struct gb_error *err)
+{
+    const int64_t rows = history->begin[history->parts];
+    struct gb_record_item *pair =
+        gb_record_add(record, names->pair, GB_RECORD_INT32, rows, 2, "1", err);
+    if (!pair) {
+        return false;
+    }
+    struct gb_record_item *value =
+        history->real == GB_REAL_F32
+            ? gb_record_add_f32(record, names->value, rows, history->planes, "d", err)
+            : gb_record_add(record, names->value, GB_RECORD_DOUBLE, rows, history->planes,
+                            "d", err);
+    history->pair = pair->data;
+    history->value = value ? value->data : NULL;
+    return value != NULL;
+}
+
+bool gb_contact_history_save(const struct gb_engine *engine, struct gb_record *record,
+                             const struct gb_contact_history_names *names,
+                             struct gb_error *err)
+{
+    struct gb_contact_history history = {.planes = engine->contacts.kept,
+                                         .real = engine->state.real};
+    struct transfer transfer = {&history, engine, 0};
+    const bool done =
+        count_parts(&transfer, err) && add_items(&history, record, names, err);
+    if (done) {
+        gb_team_run(engine->team, history.parts, write_item, &transfer);
+    }
+    gb_alloc_free(history.begin); /* the rest is the record's */
+    return done;
 }
 
 /* Branch vector of slot k of particle i as the sweep that made the history saw it. */

@@ -48,6 +48,12 @@ struct gb_contact_history_names {
 extern const struct gb_contact_history_names gb_contact_history_world,
     gb_contact_history_branch;
 
+/* Saves the kept values of every contact of the engine, in the order of its list, without
+ * another copy of them. */
+bool gb_contact_history_save(const struct gb_engine *engine, struct gb_record *record,
+                             const struct gb_contact_history_names *names,
+                             struct gb_error *err);
+
 /* Saves the kept values of a history, or loads them; contacts are not changed.
  * Errors: GB_ERR_INPUT naming the item, GB_ERR_MEMORY. */
 bool gb_contact_history_record(struct gb_contact_history *history,

@@ -91,7 +91,6 @@ void gb_world_destroy(struct gb_world *world)
     }
     finish_engine(&world->engine);
     gb_contact_carry_finish(&world->carry);
-    gb_contact_history_finish(&world->checkpoint_history);
     gb_alloc_free(world->coordination);
     gb_alloc_free(world);
 }

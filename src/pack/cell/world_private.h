@@ -10,9 +10,8 @@
  * integrate_f32.c, nonaffine.c, pair_forces.c and virial.c (docs/engine.md). */
 struct gb_world {
     struct gb_engine engine;
-    struct gb_contact_carry carry;                /* across list rebuilds */
-    struct gb_contact_history checkpoint_history; /* while one is taken or loaded */
-    int32_t *coordination; /* scratch of gb_world_coordination, one a particle */
+    struct gb_contact_carry carry; /* across list rebuilds */
+    int32_t *coordination;         /* scratch of gb_world_coordination, one a particle */
     int64_t evaluations, rebuilds;
 };
 

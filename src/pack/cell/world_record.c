@@ -162,11 +162,10 @@ static void apply_history(const struct gb_contact_history *history,
     }
 }
 
-static bool load_contacts(struct gb_world *world, struct gb_record *record,
-                          struct gb_error *err)
+/* history: scratch. */
+static bool load_history(struct gb_engine *engine, struct gb_contact_history *history,
+                         struct gb_record *record, struct gb_error *err)
 {
-    struct gb_contact_history *history = &world->checkpoint_history;
-    struct gb_engine *engine = &world->engine;
     if (!gb_contact_history_record(history, engine, record, &gb_contact_history_world,
                                    err) ||
         !gb_record_checks_history(history, engine->particles.count,
@@ -178,6 +177,21 @@ static bool load_contacts(struct gb_world *world, struct gb_record *record,
     }
     apply_history(history, engine);
     return true;
+}
+
+static bool load_contacts(struct gb_world *world, struct gb_record *record,
+                          struct gb_error *err)
+{
+    struct gb_contact_history history = {0};
+    const bool done = load_history(&world->engine, &history, record, err);
+    gb_contact_history_finish(&history);
+    return done;
+}
+
+/* Contacts of a record that has their pairs. */
+static int64_t count_contacts(const struct gb_record *record)
+{
+    return gb_record_find(record, gb_contact_history_world.pair)->rows;
 }
 
 /* Force on the first particle of every contact.  In single precision for pictures only;
@@ -197,7 +211,7 @@ static bool load_forces(struct gb_world *world, const struct gb_record *record,
     if (!gb_record_rows(record, forces_name, GB_RECORD_DOUBLE, 3, &rows, err)) {
         return false;
     }
-    if (rows != world->checkpoint_history.count) {
+    if (rows != count_contacts(record)) {
         return gb_error_set(err, GB_ERR_INPUT, "%s: does not fit the contacts",
                             forces_name);
     }
@@ -278,8 +292,7 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
     const struct gb_engine *engine = &world->engine;
     const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
     struct gb_record_item *item =
-        add_vectors(engine, record, forces_name, world->checkpoint_history.count, "E d^2",
-                    err);
+        add_vectors(engine, record, forces_name, count_contacts(record), "E d^2", err);
     struct gb_pair_forces forces;
     int64_t row = 0;
     gb_pair_forces_init(&forces, world, GB_PAIR_FORCES_NEAR);
@@ -309,14 +322,12 @@ static bool save_vectors(const struct gb_world *world, struct gb_record *record,
 
 static bool save(struct gb_world *world, struct gb_record *record, struct gb_error *err)
 {
-    struct gb_contact_history *history = &world->checkpoint_history;
     struct gb_engine *engine = &world->engine;
     struct gb_particles *particles = &engine->particles;
     struct gb_neighbour_list *list = &engine->list;
     gb_f32_convert_synchronise(engine);
     gb_f32_convert_forces_to_f64(engine);
-    return gb_contact_history_write(history, engine, err) &&
-           record_build(world, record, err) &&
+    return record_build(world, record, err) &&
            record_vectors(world, record, "world/built_at", "d", list->built_position,
                           err) &&
            gb_record_array(record, inserted_name, GB_RECORD_INT32, list->inserted_count,
@@ -324,8 +335,7 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
            record_cell(world, record, err) &&
            record_vectors(world, record, "world/position", "d", particles->position,
                           err) &&
-           gb_contact_history_record(history, engine, record, &gb_contact_history_world,
-                                     err) &&
+           gb_contact_history_save(engine, record, &gb_contact_history_world, err) &&
            save_forces(world, record, err) &&
            save_vectors(world, record, "world/force", "E d^2", particles->force, err) &&
            save_vectors(world, record, "world/torque", "E d^3", particles->torque, err) &&
@@ -335,10 +345,7 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
 bool gb_world_record(struct gb_world *world, struct gb_record *record,
                      struct gb_error *err)
 {
-    const bool done =
-        record->loading ? load(world, record, err) : save(world, record, err);
-    gb_contact_history_finish(&world->checkpoint_history);
-    return done;
+    return record->loading ? load(world, record, err) : save(world, record, err);
 }
 
 #undef AT
