@@ -157,9 +157,6 @@ void gb_hdf_destroy(struct gb_hdf *file)
     gb_alloc_free(file);
 }
 
-/* Bytes of the rows that are written at once. */
-enum { SLAB = 4 << 20 };
-
 /* Rows begin .. end - 1 of a dataset. */
 static bool write_rows(hid_t set, const struct gb_hdf_array *array, int64_t begin,
                        int64_t end, const void *data)
@@ -181,27 +178,35 @@ static bool write_rows(hid_t set, const struct gb_hdf_array *array, int64_t begi
     return done;
 }
 
-static bool write_array(struct gb_hdf *file, hid_t set, const struct gb_hdf_array *array,
-                        const void *data)
+size_t gb_hdf_row_bytes(const struct gb_hdf_array *array)
 {
-    const size_t row =
-        (size_t)array->columns * H5Tget_size(gb_hdf_types_memory(array->type));
-    const int64_t rows = (int64_t)(SLAB / row) + 1;
-    if (array->rows <= rows) {
-        return H5Dwrite(set, gb_hdf_types_memory(array->type), H5S_ALL, H5S_ALL,
-                        H5P_DEFAULT, data) >= 0;
-    }
+    return (size_t)array->columns * gb_hdf_types_bytes(array->type);
+}
+
+int64_t gb_hdf_slab_rows(const struct gb_hdf_array *array)
+{
+    return (int64_t)(GB_HDF_SLAB / gb_hdf_row_bytes(array)) + 1;
+}
+
+static bool write_array(struct gb_hdf *file, hid_t set, const struct gb_hdf_array *array,
+                        struct gb_hdf_rows rows)
+{
+    const int64_t slab = gb_hdf_slab_rows(array);
     bool done = true;
-    for (int64_t at = 0; at < array->rows && done; at += rows) {
-        const int64_t end = at + rows < array->rows ? at + rows : array->rows;
-        done = write_rows(set, array, at, end, (const char *)data + (size_t)at * row);
+    if (array->rows <= slab) {
+        return H5Dwrite(set, gb_hdf_types_memory(array->type), H5S_ALL, H5S_ALL,
+                        H5P_DEFAULT, rows.at(rows.data, 0, array->rows)) >= 0;
+    }
+    for (int64_t at = 0; at < array->rows && done; at += slab) {
+        const int64_t end = at + slab < array->rows ? at + slab : array->rows;
+        done = write_rows(set, array, at, end, rows.at(rows.data, at, end));
         gb_hdf_memory_release(&file->memory);
     }
     return done;
 }
 
-bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
-                      const void *data, struct gb_error *err)
+bool gb_hdf_put_rows(struct gb_hdf *file, const struct gb_hdf_array *array,
+                     struct gb_hdf_rows rows, struct gb_error *err)
 {
     if (!gb_hdf_memory_left()) { /* others have taken it since the file was made */
         return gb_error_set(err, GB_ERR_MEMORY, "%s: out of memory for a state",
@@ -219,7 +224,7 @@ bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                                  space, link, create, H5P_DEFAULT);
     bool done = set >= 0 && gb_hdf_attributes_add_text(set, "unit", array->unit);
     if (done && array->rows > 0) {
-        done = write_array(file, set, array, data);
+        done = write_array(file, set, array, rows);
         gb_hdf_memory_release(&file->memory);
     }
     if (set >= 0) {
@@ -229,6 +234,26 @@ bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
     H5Pclose(create);
     H5Sclose(space);
     return done || gb_hdf_unwritten(file, array->name, err);
+}
+
+/* Rows of an array in memory. */
+struct whole {
+    const char *data;
+    size_t row_bytes;
+};
+
+static const void *rows_of_whole(void *data, int64_t begin, int64_t end)
+{
+    const struct whole *whole = data;
+    (void)end;
+    return whole->data + (size_t)begin * whole->row_bytes;
+}
+
+bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
+                      const void *data, struct gb_error *err)
+{
+    struct whole whole = {data, gb_hdf_row_bytes(array)};
+    return gb_hdf_put_rows(file, array, (struct gb_hdf_rows){rows_of_whole, &whole}, err);
 }
 
 /* What is wrong with the way the data of a dataset is kept, or NULL. */

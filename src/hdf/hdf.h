@@ -50,6 +50,21 @@ struct gb_hdf_array {
 
 bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                       const void *data, struct gb_error *err);
+
+/* The rows of a dataset, asked for in order: begin .. end - 1, which have to stay until the
+ * next are asked for. */
+struct gb_hdf_rows {
+    const void *(*at)(void *data, int64_t begin, int64_t end);
+    void *data;
+};
+bool gb_hdf_put_rows(struct gb_hdf *file, const struct gb_hdf_array *array,
+                     struct gb_hdf_rows rows, struct gb_error *err);
+
+/* Bytes of a row in memory, and rows that are asked for at once: of GB_HDF_SLAB bytes and
+ * one row at most. */
+enum { GB_HDF_SLAB = 1 << 20 };
+size_t gb_hdf_row_bytes(const struct gb_hdf_array *array);
+int64_t gb_hdf_slab_rows(const struct gb_hdf_array *array);
 /* Rows of a dataset whose type and columns are as in array; array->rows is not looked at.
  */
 bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,

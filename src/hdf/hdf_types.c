@@ -35,6 +35,19 @@ hid_t gb_hdf_types_file(enum gb_hdf_type type)
     }
 }
 
+size_t gb_hdf_types_bytes(enum gb_hdf_type type)
+{
+    switch (type) {
+    case GB_HDF_INT32:
+    case GB_HDF_FLOAT:
+        return 4;
+    case GB_HDF_UINT8:
+        return 1;
+    default:
+        return 8;
+    }
+}
+
 bool gb_hdf_types_fit(hid_t type, enum gb_hdf_type wanted)
 {
     const hid_t model = gb_hdf_types_file(wanted);

@@ -8,8 +8,10 @@
 #include "base/alloc.h"
 #include "hdf/hdf.h"
 #include "hdf/hdf_record.h"
+#include "io/state/state_array.h"
 #include "io/state/state_check.h"
 #include "io/state/state_optional.h"
+#include "io/state/state_source.h"
 
 /* Raised when a reader of the old layout would misunderstand the new one.  1: without
  * checkpoints; 2: without dies; 3: without tilts and tensors; 4: without walls.
@@ -96,27 +98,10 @@ enum {
     DIGEST_SIZE = 65
 };
 
-static size_t type_size(enum gb_hdf_type type)
-{
-    switch (type) {
-    case GB_HDF_INT32:
-        return 4;
-    case GB_HDF_UINT8:
-        return 1;
-    default:
-        return 8;
-    }
-}
-
 /* The pointer member that a row describes. */
 static void **array_member(struct gb_state *state, const struct array_row *row)
 {
     return (void **)(void *)((char *)state + row->offset);
-}
-
-static const void *array_data(const struct gb_state *state, const struct array_row *row)
-{
-    return *(const void *const *)(const void *)((const char *)state + row->offset);
 }
 
 static struct gb_hdf_array shape_of(const struct array_row *row,
@@ -132,13 +117,19 @@ static struct gb_hdf_array shape_of(const struct array_row *row,
     };
 }
 
+static struct gb_state_array array_of(const struct gb_state *state,
+                                      const struct array_row *row)
+{
+    return (struct gb_state_array){state, row->offset, shape_of(row, state)};
+}
+
 static bool allocate(struct gb_state *state, const struct array_row *row,
                      struct gb_error *err)
 {
     const struct gb_hdf_array shape = shape_of(row, state);
     /* one spare row, so that an empty array is still memory */
-    void *memory = gb_alloc_array((size_t)(shape.rows + 1) * (size_t)shape.columns,
-                                  type_size(shape.type), err);
+    void *memory =
+        gb_alloc_array((size_t)(shape.rows + 1), gb_hdf_row_bytes(&shape), err);
     if (memory == NULL) {
         return false;
     }
@@ -147,8 +138,22 @@ static bool allocate(struct gb_state *state, const struct array_row *row,
     return true;
 }
 
-bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
-                     struct gb_error *err)
+static bool allocate_kind(struct gb_state *state, enum row_of kind, struct gb_error *err)
+{
+    bool good = true;
+    for (int k = 0; k < ARRAY_COUNT && good; k++) {
+        good = arrays[k].row_of != kind || allocate(state, &arrays[k], err);
+    }
+    return good;
+}
+
+bool gb_state_allocate_pairs(struct gb_state *state, struct gb_error *err)
+{
+    return allocate_kind(state, PAIR, err);
+}
+
+bool gb_state_create_particles(struct gb_state **out, int64_t count, int64_t pair_count,
+                               struct gb_error *err)
 {
     *out = NULL;
     if (count < 0 || pair_count < 0) {
@@ -162,24 +167,33 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
     state->count = count;
     state->pair_count = pair_count;
     state->die_top = state->second_per_time = state->punch_height = (double)NAN;
-    for (int k = 0; k < ARRAY_COUNT; k++) {
-        if (!allocate(state, &arrays[k], err)) {
-            gb_state_destroy(state);
-            return false;
-        }
+    if (!allocate_kind(state, PARTICLE, err) || !allocate_kind(state, WALL, err)) {
+        gb_state_destroy(state);
+        return false;
     }
     *out = state;
+    return true;
+}
+
+bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
+                     struct gb_error *err)
+{
+    if (!gb_state_create_particles(out, count, pair_count, err)) {
+        return false;
+    }
+    if (!gb_state_allocate_pairs(*out, err)) {
+        gb_state_destroy(*out);
+        *out = NULL;
+        return false;
+    }
     return true;
 }
 
 bool gb_state_allocate_walls(struct gb_state *state, int64_t count, struct gb_error *err)
 {
     const int64_t before = state->wall_count;
-    bool good = true;
     state->wall_count = count;
-    for (int k = 0; k < ARRAY_COUNT && good; k++) {
-        good = arrays[k].row_of != WALL || allocate(state, &arrays[k], err);
-    }
+    const bool good = allocate_kind(state, WALL, err);
     state->wall_count = good ? count : before;
     return good;
 }
@@ -201,6 +215,7 @@ void gb_state_destroy(struct gb_state *state)
         gb_alloc_free(*array_member(state, &arrays[k]));
     }
     gb_state_optional_free(state);
+    gb_state_source_destroy(state->source);
     gb_alloc_free(state);
 }
 
@@ -213,10 +228,8 @@ static void digest(const struct gb_state *state, int32_t layout, char text[DIGES
         if (layout < row_layout[arrays[k].row_of]) {
             continue;
         }
-        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
-        const size_t bytes =
-            (size_t)shape.rows * (size_t)shape.columns * type_size(shape.type);
-        g_checksum_update(sum, array_data(state, &arrays[k]), (gssize)bytes);
+        const struct gb_state_array array = array_of(state, &arrays[k]);
+        gb_state_array_sum(&array, sum);
     }
     g_strlcpy(text, g_checksum_get_string(sum), DIGEST_SIZE);
     g_checksum_free(sum);
@@ -258,8 +271,8 @@ bool gb_state_write(const struct gb_state *state, const struct gb_record *record
     }
     bool done = write_numbers(state, file, err);
     for (int k = 0; k < ARRAY_COUNT && done; k++) {
-        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
-        done = gb_hdf_put_array(file, &shape, array_data(state, &arrays[k]), err);
+        const struct gb_state_array array = array_of(state, &arrays[k]);
+        done = gb_state_array_put(&array, file, err);
     }
     done = done && gb_state_optional_write(state, file, err) &&
            (record == NULL || gb_hdf_record_put(file, record, err)) &&

@@ -9,6 +9,8 @@
 #include "greenbody/status.h"
 #include "pack/cell/cell.h"
 
+struct gb_state_source;
+
 /* A packing as pictures, exporters and state.h5 see it: plain arrays owned by the struct,
  * reduced lengths (diameters), forces in E d^2. */
 struct gb_state {
@@ -36,6 +38,9 @@ struct gb_state {
     double *force;          /* count x 3: resultant of the contacts, E d^2 */
     double *torque;         /* count x 3, about the centre, E d^3 */
     double *contact_radius; /* pair_count: of the contact, or of its bridge, d */
+    /* Of a state that is only written: the arrays of pairs and those that a state may lack
+     * are NULL, and their rows made of a record (io/state/state_source.h).  NULL: none. */
+    struct gb_state_source *source;
     struct gb_point point;
     double metre_per_length, pascal_per_stress;
     double second_per_time; /* T; NaN: not known, or a scene without time */
@@ -53,6 +58,11 @@ struct gb_state {
 /* Arrays for count particles and pair_count pairs, zeroed. */
 bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
                      struct gb_error *err);
+/* Arrays for count particles alone, zeroed; the pairs are to come from a source. */
+bool gb_state_create_particles(struct gb_state **out, int64_t count, int64_t pair_count,
+                               struct gb_error *err);
+/* Arrays for the pairs, zeroed. */
+bool gb_state_allocate_pairs(struct gb_state *state, struct gb_error *err);
 /* Arrays for count contacts with walls, zeroed; those that it had are lost. */
 bool gb_state_allocate_walls(struct gb_state *state, int64_t count, struct gb_error *err);
 void gb_state_destroy(struct gb_state *state); /* NULL is fine */

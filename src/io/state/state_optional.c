@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "hdf/hdf_list.h"
+#include "io/state/state_array.h"
 
 enum { DIGEST_SIZE = 65, BED_COLUMNS = 4 };
 
@@ -63,6 +64,15 @@ static const double *data_of(const struct gb_state *state, const struct optional
     return *(double *const *)(const void *)((const char *)state + row->member);
 }
 
+static const struct optional_row *row_at(size_t member)
+{
+    size_t k = 0;
+    while (rows[k].member != member) {
+        k++;
+    }
+    return &rows[k];
+}
+
 static struct gb_hdf_array shape_of(const struct gb_state *state,
                                     const struct optional_row *row)
 {
@@ -71,6 +81,12 @@ static struct gb_hdf_array shape_of(const struct gb_state *state,
                                  .rows = row->of_pairs ? state->pair_count : state->count,
                                  .columns = row->columns,
                                  .unit = row->unit};
+}
+
+static struct gb_state_array array_of(const struct gb_state *state,
+                                      const struct optional_row *row)
+{
+    return (struct gb_state_array){state, row->member, shape_of(state, row)};
 }
 
 static bool allocate(struct gb_state *state, const struct optional_row *row,
@@ -87,11 +103,8 @@ static bool allocate(struct gb_state *state, const struct optional_row *row,
 bool gb_state_optional_allocate(struct gb_state *state, double **member,
                                 struct gb_error *err)
 {
-    size_t k = 0;
-    while (member_of(state, &rows[k]) != member) {
-        k++;
-    }
-    return allocate(state, &rows[k], err);
+    const size_t offset = (size_t)((const char *)member - (const char *)state);
+    return allocate(state, row_at(offset), err);
 }
 
 void gb_state_optional_free(struct gb_state *state)
@@ -102,18 +115,19 @@ void gb_state_optional_free(struct gb_state *state)
     }
 }
 
-/* Three numbers of each row of the item, arcs as angles. */
-static void fill(struct gb_state *state, const struct optional_row *row,
-                 const struct gb_record_item *item)
+/* Rows begin .. end - 1: three numbers of each row of the item, arcs as angles. */
+static void fill_rows(const struct gb_state *state, const struct optional_row *row,
+                      const struct gb_record_item *item, int64_t begin, int64_t end,
+                      double *to)
 {
-    double *to = *member_of(state, row);
-    for (int64_t i = 0; i < state->count; i++) {
+    for (int64_t i = begin; i < end; i++) {
         const double diameter = 2.0 * state->radius[i];
         const double factor = state->die_radius > 0.0 || row->power == 0 ? 1.0
                               : row->power > 0                           ? diameter
                                                                          : 1.0 / diameter;
         for (int c = 0; c < row->columns; c++) {
-            to[row->columns * i + c] = factor * gb_record_number(item, item->columns * i + c);
+            to[row->columns * (i - begin) + c] =
+                factor * gb_record_number(item, item->columns * i + c);
         }
     }
 }
@@ -128,25 +142,59 @@ static int item_columns(const struct gb_state *state, const struct optional_row 
     return state->die_radius > 0.0 ? BED_COLUMNS : row->columns;
 }
 
+/* The item of an array that the record has; NULL without one. */
+static const struct gb_record_item *find_item(const struct gb_state *state,
+                                              const struct optional_row *row,
+                                              const struct gb_record *record)
+{
+    const char *name = item_of(state, row);
+    return name ? gb_record_find(record, name) : NULL;
+}
+
+bool gb_state_optional_check(const struct gb_state *state, const struct gb_record *record,
+                             struct gb_error *err)
+{
+    for (int k = 0; k < ROWS; k++) {
+        const struct gb_record_item *item = find_item(state, &rows[k], record);
+        if (item && (item->type != GB_RECORD_DOUBLE || item->rows != state->count ||
+                     item->columns != item_columns(state, &rows[k]))) {
+            return gb_error_set(err, GB_ERR_INPUT, "%s: is of another shape", item->name);
+        }
+    }
+    return true;
+}
+
 bool gb_state_optional_take(struct gb_state *state, const struct gb_record *record,
                             struct gb_error *err)
 {
+    if (!gb_state_optional_check(state, record, err)) {
+        return false;
+    }
     for (int k = 0; k < ROWS; k++) {
-        const char *name = item_of(state, &rows[k]);
-        const struct gb_record_item *item = name ? gb_record_find(record, name) : NULL;
-        if (item == NULL) {
-            continue;
-        }
-        if (item->type != GB_RECORD_DOUBLE || item->rows != state->count ||
-            item->columns != item_columns(state, &rows[k])) {
-            return gb_error_set(err, GB_ERR_INPUT, "%s: is of another shape", name);
-        }
-        if (!allocate(state, &rows[k], err)) {
+        const struct gb_record_item *item = find_item(state, &rows[k], record);
+        if (item && !allocate(state, &rows[k], err)) {
             return false;
         }
-        fill(state, &rows[k], item);
+        if (item) {
+            fill_rows(state, &rows[k], item, 0, state->count,
+                      *member_of(state, &rows[k]));
+        }
     }
     return true;
+}
+
+bool gb_state_optional_has(const struct gb_record *record, size_t member)
+{
+    const char *name = row_at(member)->cell;
+    return name != NULL && gb_record_find(record, name) != NULL;
+}
+
+void gb_state_optional_fill(const struct gb_state *state, const struct gb_record *record,
+                            size_t member, int64_t begin, int64_t end, double *to)
+{
+    const struct optional_row *row = row_at(member);
+    const struct gb_record_item *item = gb_record_find(record, row->cell);
+    fill_rows(state, row, item, begin, end, to);
 }
 
 /* SHA-256 of the arrays that are there, in the order of the table. */
@@ -155,13 +203,10 @@ static bool digest(const struct gb_state *state, char text[DIGEST_SIZE])
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     bool some = false;
     for (int k = 0; k < ROWS; k++) {
-        const double *data = data_of(state, &rows[k]);
-        const struct gb_hdf_array shape = shape_of(state, &rows[k]);
-        if (data != NULL) {
+        const struct gb_state_array array = array_of(state, &rows[k]);
+        if (gb_state_array_exists(&array)) {
             g_checksum_update(sum, (const guchar *)rows[k].name, -1);
-            g_checksum_update(
-                sum, (const guchar *)data,
-                (gssize)((size_t)shape.rows * (size_t)shape.columns * sizeof *data));
+            gb_state_array_sum(&array, sum);
             some = true;
         }
     }
@@ -186,9 +231,8 @@ bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
                                              numbers[k].count, value, err);
     }
     for (int k = 0; k < ROWS && done; k++) {
-        const struct gb_hdf_array shape = shape_of(state, &rows[k]);
-        const double *data = data_of(state, &rows[k]);
-        done = data == NULL || gb_hdf_put_array(file, &shape, data, err);
+        const struct gb_state_array array = array_of(state, &rows[k]);
+        done = !gb_state_array_exists(&array) || gb_state_array_put(&array, file, err);
     }
     return done;
 }
@@ -225,9 +269,11 @@ static bool read_item(struct gb_state *state, const struct optional_row *row,
     const bool done = data != NULL && gb_hdf_get_array(file, &shape, data, err) &&
                       allocate(state, row, err);
     if (done) {
-        fill(state, row,
-             &(struct gb_record_item){
-                 .rows = state->count, .columns = columns, .data = data});
+        const struct gb_record_item read = {.type = GB_RECORD_DOUBLE,
+                                            .rows = state->count,
+                                            .columns = columns,
+                                            .data = data};
+        fill_rows(state, row, &read, 0, state->count, *member_of(state, row));
     }
     gb_alloc_free(data);
     return done;

@@ -20,6 +20,14 @@ void gb_state_optional_free(struct gb_state *state);
 bool gb_state_optional_take(struct gb_state *state, const struct gb_record *record,
                             struct gb_error *err);
 
+/* The same without a copy, for sources of a periodic cell: the shapes of all items; is
+ * there an item for the array at an offset of gb_state; its rows begin .. end - 1. */
+bool gb_state_optional_check(const struct gb_state *state, const struct gb_record *record,
+                             struct gb_error *err);
+bool gb_state_optional_has(const struct gb_record *record, size_t member);
+void gb_state_optional_fill(const struct gb_state *state, const struct gb_record *record,
+                            size_t member, int64_t begin, int64_t end, double *to);
+
 /* Datasets of the state's file with a checksum of their own, which earlier versions do not
  * read. */
 bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,

@@ -7,24 +7,23 @@
 #include "law/law_unequal.h"
 #include "pack/die/filling.h"
 
-/* Overlap of a pair, d. */
-static double overlap_of(const struct gb_state *state, const struct gb_cell *cell,
-                         int64_t k)
+/* Overlap of a pair in a die, d. */
+static double overlap_of(const struct gb_state *state, int64_t k)
 {
     const int64_t i = state->pair[2 * k], j = state->pair[2 * k + 1];
     const double *a = state->position + 3 * i, *b = state->position + 3 * j;
     double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    gb_cell_nearest(cell, r);
+    const struct gb_cell cell = gb_state_cell(state);
+    gb_cell_nearest(&cell, r);
     return state->radius[i] + state->radius[j] - gb_vec_length(r);
 }
 
-/* deepest > 0: of a bridge. */
-static double cell_radius(const struct gb_state *state, const struct gb_model *model,
-                          int64_t k, double overlap, double deepest)
+double gb_state_radius_of(const struct gb_state *state, const struct gb_model *model,
+                          const int32_t pair[2], double distance, double deepest)
 {
-    const double first = 2.0 * state->radius[state->pair[2 * k]],
-                 second = 2.0 * state->radius[state->pair[2 * k + 1]],
-                 mean = 0.5 * (first + second);
+    const double a = state->radius[pair[0]], b = state->radius[pair[1]];
+    const double overlap = a + b - distance;
+    const double first = 2.0 * a, second = 2.0 * b, mean = 0.5 * (first + second);
     const struct gb_law_unequal law = {.mean_diameter = mean,
                                        .diameter_ratio = first * second / (mean * mean)};
     const double bridge =
@@ -44,11 +43,9 @@ static double bed_radius(const struct gb_state *state, const struct gb_bed_law *
 }
 
 bool gb_state_radius_fill(struct gb_state *state, const struct gb_record *record,
-                          const struct gb_params *params, const struct gb_model *model,
-                          struct gb_error *err)
+                          const struct gb_params *params, struct gb_error *err)
 {
-    const bool in_die = state->die_radius > 0.0;
-    const char *name = in_die ? "bed/deepest" : "world/history";
+    static const char name[] = "bed/deepest";
     const struct gb_record_item *item = gb_record_find(record, name);
     if (item == NULL || item->type != GB_RECORD_DOUBLE ||
         item->rows != state->pair_count) {
@@ -58,16 +55,10 @@ bool gb_state_radius_fill(struct gb_state *state, const struct gb_record *record
     if (!gb_state_optional_allocate(state, &state->contact_radius, err)) {
         return false;
     }
-    const struct gb_cell cell = gb_state_cell(state);
-    const struct gb_bed_law law =
-        in_die ? gb_filling_compaction_law(params) : (struct gb_bed_law){0};
+    const struct gb_bed_law law = gb_filling_compaction_law(params);
     for (int64_t k = 0; k < state->pair_count; k++) {
-        const double overlap = overlap_of(state, &cell, k);
-        /* the first number of a history */
-        const double deepest = gb_record_number(item, k * item->columns);
         state->contact_radius[k] =
-            in_die ? bed_radius(state, &law, k, overlap, deepest)
-                   : cell_radius(state, model, k, overlap, deepest);
+            bed_radius(state, &law, k, overlap_of(state, k), gb_record_number(item, k));
     }
     return true;
 }

@@ -1,6 +1,7 @@
 #include "io/state/state_record.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "io/point_columns.h"
 #include "io/state/state_optional.h"
 #include "io/state/state_radius.h"
+#include "io/state/state_source.h"
 #include "pack/cell/cell.h"
 #include "pack/die/die.h"
 #include "pack/structure/assign_sizes.h"
@@ -82,23 +84,21 @@ static bool take_tensors(const struct gb_record *record, struct gb_state *state,
            take(record, "world/tilt", GB_RECORD_DOUBLE, 1, 3, state->tilt, err);
 }
 
-/* Normal forces, bridges and coordination from the pairs and their histories. */
-static void fill_pairs(struct gb_state *state, const struct gb_cell *cell,
-                       const struct gb_record_item *history)
+/* Coordination numbers. */
+static bool count_contacts(struct gb_state *state, const struct gb_record *record,
+                           struct gb_error *err)
 {
-    for (int64_t k = 0; k < state->pair_count; k++) {
-        const int32_t *pair = state->pair + 2 * k;
-        const double *a = state->position + 3 * (int64_t)pair[0];
-        const double *b = state->position + 3 * (int64_t)pair[1];
-        double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-        gb_cell_nearest(cell, r);
-        state->pair_normal[k] =
-            gb_vec_dot(state->pair_force + 3 * k, r) / gb_vec_length(r);
-        /* the first number of a row is the deepest overlap */
-        state->pair_bridged[k] = gb_record_number(history, k * history->columns) > 0.0;
-        state->contacts[pair[0]]++;
-        state->contacts[pair[1]]++;
+    const struct gb_record_item *item = gb_record_find(record, "world/pair");
+    if (!item || item->type != GB_RECORD_INT32 || item->columns != 2 ||
+        item->rows != state->pair_count) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "world/pair: is missing or of another shape");
     }
+    const int32_t *particle = item->data;
+    for (int64_t k = 0; k < 2 * state->pair_count; k++) {
+        state->contacts[particle[k]]++;
+    }
+    return true;
 }
 
 /* T of a scene with time. */
@@ -299,7 +299,7 @@ static bool die_state(struct gb_state **out, const struct gb_record *record,
     const bool done = work && gb_state_create(&state, model->count, pairs, err) &&
                       fill_die(state, record, model, work, err) &&
                       gb_state_optional_take(state, record, err) &&
-                      gb_state_radius_fill(state, record, params, model, err);
+                      gb_state_radius_fill(state, record, params, err);
     gb_alloc_free(work);
     if (!done) {
         gb_state_destroy(state);
@@ -310,32 +310,18 @@ static bool die_state(struct gb_state **out, const struct gb_record *record,
     return true;
 }
 
-bool gb_state_record(struct gb_state **out, const struct gb_record *record,
-                     const struct gb_params *params, const struct gb_model *model,
-                     struct gb_error *err)
+/* The particles of a periodic cell; everything of its pairs by a source. */
+static bool fill_cell(struct gb_state *state, const struct gb_record *record,
+                      const struct gb_params *params, const struct gb_model *model,
+                      struct gb_error *err)
 {
-    if (!gb_loading_kind_at(model->kind)->periodic_cell) {
-        return die_state(out, record, params, model, err);
-    }
     const int64_t count = model->count;
-    const struct gb_record_item *history = gb_record_find(record, "world/history");
-    const int64_t pairs = history ? history->rows : 0;
-    struct gb_state *state = NULL;
-    if (!history) {
-        return gb_error_set(err, GB_ERR_INPUT, "world/history: is missing");
-    }
-    if (!gb_state_create(&state, count, pairs, err)) {
-        return false;
-    }
     if (!take(record, "world/edge", GB_RECORD_DOUBLE, 1, 3, state->cell, err) ||
         !take(record, "world/position", GB_RECORD_DOUBLE, count, 3, state->position,
               err) ||
         !gb_assign_sizes_model(model, state->radius, err) ||
-        !take(record, "world/pair", GB_RECORD_INT32, pairs, 2, state->pair, err) ||
-        !take(record, "world/pair_force", GB_RECORD_DOUBLE, pairs, 3, state->pair_force,
-              err) ||
-        !take_tensors(record, state, err) || !take_point(record, &state->point, err)) {
-        gb_state_destroy(state);
+        !take_tensors(record, state, err) || !take_point(record, &state->point, err) ||
+        !count_contacts(state, record, err)) {
         return false;
     }
     state->dimension = model->dimension;
@@ -344,13 +330,80 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
         gb_cell_wrap(&cell, state->position + 3 * i);
         state->radius[i] *= 0.5;
     }
-    fill_pairs(state, &cell, history);
     fill_header(state, params, model);
-    if (!gb_state_optional_take(state, record, err) ||
-        !gb_state_radius_fill(state, record, params, model, err)) {
+    return gb_state_source_create(state, record, model, err);
+}
+
+static bool cell_state(struct gb_state **out, const struct gb_record *record,
+                       const struct gb_params *params, const struct gb_model *model,
+                       struct gb_error *err)
+{
+    const struct gb_record_item *history = gb_record_find(record, "world/history");
+    struct gb_state *state = NULL;
+    if (!history) {
+        return gb_error_set(err, GB_ERR_INPUT, "world/history: is missing");
+    }
+    if (!gb_state_create_particles(&state, model->count, history->rows, err)) {
+        return false;
+    }
+    if (!fill_cell(state, record, params, model, err)) {
         gb_state_destroy(state);
         return false;
     }
     *out = state;
     return true;
+}
+
+/* All arrays of the source in memory. */
+static bool take_pairs(struct gb_state *state, const struct gb_record *record,
+                       struct gb_error *err)
+{
+    if (!gb_state_allocate_pairs(state, err) ||
+        !gb_state_optional_allocate(state, &state->contact_radius, err)) {
+        return false;
+    }
+    const struct {
+        size_t member;
+        void *array;
+    } arrays[] = {
+        {offsetof(struct gb_state, pair), state->pair},
+        {offsetof(struct gb_state, pair_force), state->pair_force},
+        {offsetof(struct gb_state, pair_normal), state->pair_normal},
+        {offsetof(struct gb_state, pair_bridged), state->pair_bridged},
+        {offsetof(struct gb_state, contact_radius), state->contact_radius},
+    };
+    for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) {
+        gb_state_source_fill(state, arrays[k].member, 0, state->pair_count,
+                             arrays[k].array);
+    }
+    return gb_state_optional_take(state, record, err);
+}
+
+bool gb_state_record(struct gb_state **out, const struct gb_record *record,
+                     const struct gb_params *params, const struct gb_model *model,
+                     struct gb_error *err)
+{
+    if (!gb_loading_kind_at(model->kind)->periodic_cell) {
+        return die_state(out, record, params, model, err);
+    }
+    if (!cell_state(out, record, params, model, err)) {
+        return false;
+    }
+    const bool done = take_pairs(*out, record, err);
+    gb_state_source_destroy((*out)->source);
+    (*out)->source = NULL;
+    if (!done) {
+        gb_state_destroy(*out);
+        *out = NULL;
+    }
+    return done;
+}
+
+bool gb_state_record_to_write(struct gb_state **out, const struct gb_record *record,
+                              const struct gb_params *params,
+                              const struct gb_model *model, struct gb_error *err)
+{
+    return gb_loading_kind_at(model->kind)->periodic_cell
+               ? cell_state(out, record, params, model, err)
+               : die_state(out, record, params, model, err);
 }

@@ -19,4 +19,10 @@ double gb_state_record_half_width(const double (*position)[4], int64_t count,
 /* Axes along which a scene is pressed. */
 void gb_state_record_pressed(struct gb_state *state, const struct gb_model *model);
 
+/* The same for gb_state_write alone: what is written row by row is not copied.  The record
+ * must stay as it is until the state is destroyed. */
+bool gb_state_record_to_write(struct gb_state **out, const struct gb_record *record,
+                              const struct gb_params *params,
+                              const struct gb_model *model, struct gb_error *err);
+
 #endif

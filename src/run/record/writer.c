@@ -32,7 +32,7 @@ static void write_record(const struct gb_writer *writer, const struct gb_record 
                          struct gb_error *err)
 {
     struct gb_state *state = NULL;
-    if (gb_state_record(&state, record, writer->params, writer->model, err)) {
+    if (gb_state_record_to_write(&state, record, writer->params, writer->model, err)) {
         gb_store_state(writer->store, state, record, err);
     }
     gb_state_destroy(state);
