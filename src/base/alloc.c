@@ -5,12 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ALIGNMENT = 64 };
+/* From LARGE bytes on the system hands out zeroed pages: those that are never written are
+ * not resident. */
+enum { ALIGNMENT = 64, LARGE = 1 << 20 };
 
-/* The size of a block stands in the line before it, so that freeing can keep the count.
- */
+/* The size of a block stands in the line before it, so that freeing can keep the count,
+ * and where its memory begins. */
 struct head {
     _Alignas(ALIGNMENT) size_t bytes;
+    void *memory;
 };
 
 /* The only mutable state of this layer: the test hook and the count it reports. */
@@ -22,9 +25,28 @@ static bool must_fail(void)
     return atomic_load(&fail_countdown) > 0 && atomic_fetch_sub(&fail_countdown, 1) == 1;
 }
 
+/* Zeroed lines with their head; NULL: no memory. */
+static struct head *allocate(size_t total)
+{
+    const bool large = total >= LARGE;
+    char *memory =
+        large ? calloc(1, total + ALIGNMENT) : aligned_alloc(ALIGNMENT, total);
+    if (!memory) {
+        return NULL;
+    }
+    const size_t beyond = (uintptr_t)memory % ALIGNMENT;
+    struct head *head = (void *)(memory + (beyond > 0 ? ALIGNMENT - beyond : 0));
+    if (!large) {
+        memset(head, 0, total);
+    }
+    head->bytes = total;
+    head->memory = memory;
+    return head;
+}
+
 void *gb_alloc_array(size_t count, size_t size, struct gb_error *err)
 {
-    const size_t room = SIZE_MAX / 2 - 2 * sizeof(struct head);
+    const size_t room = SIZE_MAX / 2 - 3 * sizeof(struct head);
     if (size != 0 && count > room / size) {
         gb_error_set(err, GB_ERR_MEMORY, "%zu items of %zu bytes do not fit in memory",
                      count, size);
@@ -32,13 +54,11 @@ void *gb_alloc_array(size_t count, size_t size, struct gb_error *err)
     }
     const size_t lines = (count * size + ALIGNMENT - 1) / ALIGNMENT;
     const size_t total = sizeof(struct head) + lines * ALIGNMENT;
-    struct head *head = must_fail() ? NULL : aligned_alloc(ALIGNMENT, total);
+    struct head *head = must_fail() ? NULL : allocate(total);
     if (!head) {
         gb_error_set(err, GB_ERR_MEMORY, "out of memory: %zu bytes requested", total);
         return NULL;
     }
-    memset(head, 0, total);
-    head->bytes = total;
     atomic_fetch_add(&bytes_held, total);
     return head + 1;
 }
@@ -50,7 +70,7 @@ void gb_alloc_free(void *memory)
     }
     struct head *head = (struct head *)memory - 1;
     atomic_fetch_sub(&bytes_held, head->bytes);
-    free(head);
+    free(head->memory);
 }
 
 long gb_alloc_fail_after(long k)
