@@ -1,6 +1,7 @@
 """The program in a terminal of tmux, for cells.py, and what the terminals have found."""
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -95,6 +96,11 @@ class Terminal:
 
     def until_shown(self, text):
         self.until(lambda rows: any(text in row for row in rows), text)
+
+    def until_view(self, key):
+        """By the title of its pane."""
+        self.until(lambda rows: any(re.search(rf'[-\u2500] {key} [A-Z]', row) for row in rows),
+                   f'view {key}')
 
     def until_gone(self, text):
         self.until(lambda rows: not any(text in row for row in rows), f'no {text}')
