@@ -20,7 +20,7 @@ until (ulimit -v $least && exec "$greenbody" --version) >stdout 2>stderr; do
     least=$((least + 20000))
 done
 short=0
-for more in 30000 60000 80000 90000 100000 110000 130000; do
+for more in 30000 60000 74000 78000 82000 86000 90000 100000 110000 130000; do
     limited $((least + more))
     status=$?
     [ $status -eq 0 ] || [ $status -eq 3 ]
