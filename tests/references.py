@@ -15,7 +15,7 @@ import sys
 PIECE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"', re.S)
 FILE = re.compile(r'(?<![\w./<*-])((?:[\w-]+/)*[a-z]\w*\.(?:[ch]|py|sh|md))\b(?!\()')
 SYMBOL = re.compile(r'\b((?:gb|GB)_\w+)(\*|\.\.\.)?')
-FOLDERS = ('src', 'include', 'tests', 'docs', 'examples')
+FOLDERS = ('src', 'include', 'tests', 'docs', 'examples', 'assets')
 
 
 def line_of(text, offset):
