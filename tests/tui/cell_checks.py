@@ -94,6 +94,8 @@ def check_numbers(rows, cols, edges, whole, faults, cut):
         if cut and cut.search(row):
             faults.append(f'cut number in row {at + 1}: {row.strip()}')
         for edge in edges:
+            if edge < cols and cells(row, cols)[edge] not in VERTICAL:
+                continue  # a message below the panes goes on there
             left = cells(row, cols)[:edge].rstrip(' ')
             if len(left) < edge - 1:
                 continue
