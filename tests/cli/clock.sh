@@ -9,7 +9,7 @@ if ! LD_PRELOAD=$leap "$greenbody" --version >stdout 2>stderr; then
     exit 0
 fi
 export TMUX_TMPDIR=$here
-trap 'tmux -L clock kill-server 2>/dev/null; end_engines; rm -rf "$here"' EXIT
+trap 'for name in clock back; do tmux -L $name kill-server; done 2>/dev/null; end_engines; rm -rf "$here"' EXIT
 
 # The rows without their seconds, the 14th column.
 rows() {
@@ -61,22 +61,23 @@ is 'and it is kept' until_true kept
 
 # --- keys while the clock is set back between any two looks at it ---------------------------
 tmux -L clock kill-server
-tmux -L clock -f /dev/null new-session -d -x 100 -y 30 \
+# a server of its own: the one that ends may still take the command
+tmux -L back -f /dev/null new-session -d -x 100 -y 30 \
     "env LEAP_CLOCK=back LD_PRELOAD=$leap GB_PRESET_DIR=$presets XDG_STATE_HOME=$here/back \
     $greenbody default particles.count=300 2>screen.err; echo left; sleep 100"
 on_screen() {
-    tmux -L clock capture-pane -p >stdout 2>/dev/null
+    tmux -L back capture-pane -p >stdout 2>/dev/null
     grep -q "$1" stdout
 }
 gone() {
     ! on_screen "$1"
 }
 is 'the workbench starts by a clock that is set back' until_true on_screen 'q quit'
-tmux -L clock send-keys '?'
+tmux -L back send-keys '?'
 is 'a key works' until_true on_screen 'Esc closes'
-tmux -L clock send-keys Escape
+tmux -L back send-keys Escape
 is 'Esc alone works, too' until_true gone 'Esc closes'
-tmux -L clock send-keys F10
+tmux -L back send-keys F10
 is 'and a key of several bytes' until_true on_screen 'left\|Quit'
 
 echo "1..$tests"
