@@ -22,7 +22,8 @@ static bool allocate(struct gb_bed *bed, struct gb_error *err)
     struct gb_bed_list *const lists[] = {&bed->pairs, &bed->previous_pairs, &bed->walls,
                                          &bed->previous_walls};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-        *rows[k] = gb_alloc_array((size_t)bed->count, sizeof **rows[k], err);
+        *rows[k] =
+            gb_alloc_array((size_t)bed->count + GB_DIE_WALLS, sizeof **rows[k], err);
         if (!*rows[k]) {
             return false;
         }
@@ -188,8 +189,9 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2, struct gb_e
     batch.step = step;
     batch.stiffest = 0.0;
     bed->tally = (struct gb_bed_tally){0};
-    memset(bed->force, 0, (size_t)bed->count * sizeof *bed->force);
-    memset(bed->torque, 0, (size_t)bed->count * sizeof *bed->torque);
+    const size_t rows = (size_t)bed->count + GB_DIE_WALLS;
+    memset(bed->force, 0, rows * sizeof *bed->force);
+    memset(bed->torque, 0, rows * sizeof *bed->torque);
     sweep_pairs(bed, &batch);
     gb_bed_walls_sweep(bed, &batch);
     bed->tally.stiffest = batch.stiffest;

@@ -11,7 +11,8 @@
 
 /* Spheres of many sizes in a die.  Reduced units: length d (the reference diameter),
  * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
- * fourth of a row is the radius in `position` and 0 elsewhere. */
+ * fourth of a row is the radius in `position` and 0 elsewhere.  Behind the rows of the
+ * particles are those of the walls (enum gb_die_wall). */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */

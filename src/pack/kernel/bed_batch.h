@@ -13,8 +13,8 @@ struct gb_bed_batch {
     int n;
     double step; /* time since the last evaluation, for the shear increments */
     double mu;
-    /* in, pairs: branch vector x_i - x_j and R_i + R_j.  In, walls: unit, overlap, and
-     * lever = 1 - h/R */
+    /* in: branch vector x_i - x_j and R_i + R_j; walls also unit, overlap, and lever = 1 -
+     * h/R */
     _Alignas(64) double branch[3][GB_BED_BATCH];
     double reach[GB_BED_BATCH];
     double unit[3][GB_BED_BATCH], overlap[GB_BED_BATCH], lever[GB_BED_BATCH];
@@ -40,13 +40,15 @@ gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
 /* Rows of four doubles of the particles, so that a vector is one load. */
 typedef double gb_bed_row[4];
 
-/* The particles of a batch of pairs: first[k] and other[k] of pair k.  Without friction
+/* The partners of a batch: rows first[k] and other[k] + from of contact k.  Without friction
  * neither spin nor torque is used.  Gather: branch vectors, relative velocities and sums
- * of radii into the batch; scatter: forces and torques back. */
+ * of radii into the batch; scatter: forces and torques back.  A wall is a row as well, at the
+ * origin without radius, so that `branch` and `reach` are those of the particle. */
 struct gb_bed_rows {
     const gb_bed_row *position, *velocity, *spin;
     gb_bed_row *force, *torque;
     const int32_t *first, *other;
+    int32_t from; /* 0 for pairs */
     bool friction;
 };
 typedef void gb_bed_gather(const struct gb_bed_rows *rows, struct gb_bed_batch *batch);

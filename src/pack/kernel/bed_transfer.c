@@ -1,11 +1,11 @@
 #include "pack/kernel/bed_batch.h"
 #include "pack/kernel/simd.h"
 
-/* Pairs [from, batch->n) one by one. */
-static void gather_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, int from)
+/* Contacts [done, batch->n) one by one. */
+static void gather_rest(const struct gb_bed_rows *rows, struct gb_bed_batch *b, int done)
 {
-    for (int k = from; k < b->n; k++) {
-        const int32_t i = rows->first[k], j = rows->other[k];
+    for (int k = done; k < b->n; k++) {
+        const int32_t i = rows->first[k], j = rows->other[k] + rows->from;
         const double *xi = rows->position[i], *xj = rows->position[j];
         for (int c = 0; c < 3; c++) {
             b->branch[c][k] = xi[c] - xj[c];
@@ -18,11 +18,11 @@ static void gather_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, 
     }
 }
 
-static void scatter_from(const struct gb_bed_rows *rows, const struct gb_bed_batch *b,
-                         int from)
+static void scatter_rest(const struct gb_bed_rows *rows, const struct gb_bed_batch *b,
+                         int done)
 {
-    for (int k = from; k < b->n; k++) {
-        const int32_t i = rows->first[k], j = rows->other[k];
+    for (int k = done; k < b->n; k++) {
+        const int32_t i = rows->first[k], j = rows->other[k] + rows->from;
         const double ri = rows->position[i][3], rj = rows->position[j][3];
         for (int c = 0; c < 3; c++) {
             rows->force[i][c] += b->force[c][k];
@@ -37,12 +37,12 @@ static void scatter_from(const struct gb_bed_rows *rows, const struct gb_bed_bat
 
 static void gather_128(const struct gb_bed_rows *rows, struct gb_bed_batch *batch)
 {
-    gather_from(rows, batch, 0);
+    gather_rest(rows, batch, 0);
 }
 
 static void scatter_128(const struct gb_bed_rows *rows, const struct gb_bed_batch *batch)
 {
-    scatter_from(rows, batch, 0);
+    scatter_rest(rows, batch, 0);
 }
 
 static const struct gb_bed_transfer transfer_128 = {gather_128, scatter_128};
@@ -79,12 +79,13 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
     const gb_bed_row *restrict position = rows->position;
     const gb_bed_row *restrict velocity = rows->velocity, *restrict spin = rows->spin;
     const bool friction = rows->friction;
+    const int32_t from = rows->from;
     const int n = b->n;
     int k = 0;
     for (; k + 4 <= n; k += 4) {
         v4 branch[4], slip[4], roll[4] = {{0}};
         for (int p = 0; p < 4; p++) {
-            const int32_t i = first[k + p], j = other[k + p];
+            const int32_t i = first[k + p], j = other[k + p] + from;
             const v4 xi = ROW(position, i), xj = ROW(position, j);
             branch[p] = SHUFFLE(xi - xj, xi + xj, 0, 1, 2, 7);
             slip[p] = ROW(velocity, i) - ROW(velocity, j);
@@ -108,7 +109,7 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
             }
         }
     }
-    gather_from(rows, b, k);
+    gather_rest(rows, b, k);
 }
 
 GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
@@ -118,6 +119,7 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
     const gb_bed_row *restrict position = rows->position;
     gb_bed_row *force_of = rows->force, *torque_of = rows->torque;
     const bool friction = rows->friction;
+    const int32_t from = rows->from;
     const int n = b->n;
     int k = 0;
     for (; k + 4 <= n; k += 4) {
@@ -128,7 +130,7 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
         TRANSPOSE(force[0], force[1], force[2], force[3]);
         for (int p = 0; p < 4; p++) {
             *(v4 *)force_of[first[k + p]] += force[p];
-            *(v4 *)force_of[other[k + p]] -= force[p];
+            *(v4 *)force_of[other[k + p] + from] -= force[p];
         }
         if (!friction) {
             continue;
@@ -138,13 +140,13 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
         }
         TRANSPOSE(moment[0], moment[1], moment[2], moment[3]);
         for (int p = 0; p < 4; p++) {
-            const int32_t i = first[k + p], j = other[k + p];
+            const int32_t i = first[k + p], j = other[k + p] + from;
             const v4 xi = ROW(position, i), xj = ROW(position, j);
             *(v4 *)torque_of[i] += SHUFFLE(xi, xi, 3, 3, 3, 3) * moment[p];
             *(v4 *)torque_of[j] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
         }
     }
-    scatter_from(rows, b, k);
+    scatter_rest(rows, b, k);
 }
 
 static const struct gb_bed_transfer transfer_256 = {gather_256, scatter_256};
