@@ -230,7 +230,7 @@ class Life:
 
     def _go(self, step):
         end = step['end']
-        written = self._written()
+        resumed, written = self._has_run(), self._written()
         process = self._begin(step, step['bytes'] if end == 'size' else None)
         watcher = self._watch() if step.get('watch') else None
         accepted = {self.status}
@@ -241,7 +241,10 @@ class Life:
             try:
                 process.wait(step['after'] * self.length)
             except subprocess.TimeoutExpired:
-                before = self._looked_at('a run under way')
+                # resume cuts what lies behind the checkpoint before it writes its status
+                has_cut = not resumed or self._written() != written
+                rows = self._looked_at('a run under way')
+                before = rows if has_cut else []
                 if end == 'stand':
                     self._stand(process)
                 else:
