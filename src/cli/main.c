@@ -15,6 +15,7 @@
 
 #include "base/built_with.h"
 #include "base/program.h"
+#include "base/text/nearest_word.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/complete/completion.h"
@@ -80,13 +81,17 @@ static void print_version(void)
 
 static int refuse_word(const char *word)
 {
-    char *names = gb_commands_names();
+    char *names = gb_commands_names(), **presets = gb_preset_folders_list(), meant[64];
     struct gb_error err;
+    if (*gb_nearest_word_in(word, names, meant, sizeof meant) == '\0') {
+        gb_nearest_word(word, presets, meant, sizeof meant);
+    }
     gb_error_set(&err, GB_ERR_INPUT,
-                 "%.80s: no such option, command, file or preset; commands: %s; "
+                 "%.80s: no such option, command, file or preset; %scommands: %s; "
                  "see greenbody --help",
-                 word, names);
+                 word, meant, names);
     g_free(names);
+    g_strfreev(presets);
     return gb_options_fail(&err);
 }
 

@@ -11,6 +11,7 @@
 
 #include <glib.h>
 
+#include "base/text/nearest_word.h"
 #include "base/text/text_list.h"
 #include "io/key_lines.h"
 #include "io/preset_folders.h"
@@ -235,14 +236,16 @@ static bool load_path(struct gb_preset *preset, const char *path, struct gb_erro
 static void refuse_name(const char *name, struct gb_error *err)
 {
     enum { NAME_BYTES = 80, TEXT_BYTES = 60, PRESETS_BYTES = 80 };
-    const size_t bytes =
-        sizeof err->text - MIN(strlen(name), NAME_BYTES) - TEXT_BYTES - PRESETS_BYTES;
+    char meant[64];
     char **known = gb_preset_folders_list(), **folders = gb_preset_folders();
+    gb_nearest_word(name, known, meant, sizeof meant);
+    const size_t bytes = sizeof err->text - MIN(strlen(name), NAME_BYTES) -
+                         strlen(meant) - TEXT_BYTES - PRESETS_BYTES;
     char *searched = gb_text_list_join(folders, bytes);
     char *list = gb_text_list_join(known, bytes + PRESETS_BYTES - strlen(searched));
     gb_error_set(err, GB_ERR_INPUT,
-                 "%.*s: no such file or preset; looked in %s; presets: %s", NAME_BYTES,
-                 name, *searched != '\0' ? searched : "folders of long names",
+                 "%.*s: no such file or preset; %slooked in %s; presets: %s", NAME_BYTES,
+                 name, meant, *searched != '\0' ? searched : "folders of long names",
                  *list != '\0' ? list : "none");
     g_free(searched);
     g_free(list);

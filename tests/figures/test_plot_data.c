@@ -422,6 +422,8 @@ static const char *const refused[][2] = {
     {"", "--figure : accepted a name that greenbody plot --help lists"},
     {"a1", "--figure : accepted a name"},
     {"a1 --figure pie", "--figure pie: accepted a name"},
+    {"a1 --figure densificaton",
+     "--figure densificaton: did you mean densification? accepted a name"},
     {"--figure time", "1 to 1000 run directories"},
     {"a1 --figure time --bogus", "Unknown option --bogus"},
     {"a1 --figure time -o x.gif", "a name ending in .png, "},

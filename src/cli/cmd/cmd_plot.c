@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/text/nearest_word.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -46,11 +47,13 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
 {
     const struct gb_figures_row *found = name ? gb_figures_find(name) : NULL;
     if (found == NULL) {
-        gb_error_set(
-            err, GB_ERR_INPUT,
-            "--figure %.80s: accepted a name that greenbody plot --help lists, as "
-            "time or densification",
-            name ? name : "");
+        char *names = gb_figures_names(0), meant[64];
+        gb_error_set(err, GB_ERR_INPUT,
+                     "--figure %.80s: %saccepted a name that greenbody plot --help lists, "
+                     "as time or densification",
+                     name ? name : "",
+                     gb_nearest_word_in(name ? name : "", names, meant, sizeof meant));
+        g_free(names);
     }
     return found;
 }
