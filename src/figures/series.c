@@ -224,22 +224,37 @@ static bool has_another(const struct gb_figure_curve *curve, double *first)
     return false;
 }
 
+/* Sets *first as has_another does; whether the curves have as many abscissas as `axis` needs. */
+static bool has_enough(const struct gb_figure *drawn, const struct gb_series_axis *axis,
+                       double *first)
+{
+    for (size_t k = 0; k < drawn->count; k++) {
+        if (has_another(&drawn->curve[k], first) ||
+            (!axis->several && !isnan(*first))) {
+            return true;
+        }
+    }
+    return drawn->count == 0 || drawn->map != NULL;
+}
+
 bool gb_series_check_drawable(const struct gb_series *series, const char *figure,
                               struct gb_error *err)
 {
     struct gb_figure drawn;
     struct gb_figure_curve *curves = NULL;
     double first = NAN;
-    bool another = !series->x.several;
     gb_series_figure(series, &drawn, &curves);
-    for (size_t k = 0; k < drawn.count && !another; k++) {
-        another = has_another(&curves[k], &first);
-    }
+    const bool enough = has_enough(&drawn, &series->x, &first);
     g_free(curves);
-    return another || gb_error_set(err, GB_ERR_INPUT,
-                                   "%s: all points have %s = %.4g; a figure takes two "
-                                   "values of it or more, a CSV one",
-                                   figure, series->x.name, first);
+    if (!enough && isnan(first)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: there is no value to draw; a CSV has the empty table",
+                            figure);
+    }
+    return enough || gb_error_set(err, GB_ERR_INPUT,
+                                  "%s: all points have %s = %.4g; a figure takes two "
+                                  "values of it or more, a CSV one",
+                                  figure, series->x.name, first);
 }
 
 static void append_notes(GString *text, const char *notes)

@@ -81,7 +81,8 @@ void gb_series_grow(struct gb_series *series, size_t rows);
 void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
                       struct gb_figure_curve **curves);
 
-/* Whether the curves have as many abscissas as the axis needs.  Errors: GB_ERR_INPUT. */
+/* Whether there is something to draw, with as many abscissas as the axis needs.  Errors:
+ * GB_ERR_INPUT. */
 bool gb_series_check_drawable(const struct gb_series *series, const char *figure,
                               struct gb_error *err);
 

@@ -131,6 +131,34 @@ static void test_options(void)
     g_assert_cmpstr(err.text, ==, "the figure difference needs --reference DIR");
 }
 
+/* Curves without a single value would be empty axes: one value, or a map, is drawn. */
+static void test_empty(void)
+{
+    for (int with_value = 0; with_value < 2; with_value++) {
+        struct gb_series series;
+        struct gb_error err = {0};
+        gb_series_init(&series, 3);
+        double *x = gb_series_column(&series, "x"), *y = gb_series_column(&series, "y");
+        x[0] = x[1] = 1.0;
+        gb_series_axes(&series, "x", "x", "y", "y");
+        gb_series_draw(&series, x, y, NULL, GB_FIGURE_LINE, 0, NULL);
+        if (with_value) {
+            y[1] = 2.0;
+        }
+        g_assert_true(gb_series_check_drawable(&series, "pie", &err) == with_value);
+        g_assert_cmpstr(err.text, ==,
+                        with_value ? ""
+                                   : "pie: there is no value to draw; a CSV has the empty "
+                                     "table");
+        series.x.several = true;
+        g_assert_false(gb_series_check_drawable(&series, "pie", &err));
+        if (with_value) {
+            g_assert_true(g_str_has_prefix(err.text, "pie: all points have x = 1; "));
+        }
+        gb_series_finish(&series);
+    }
+}
+
 static void test_formats(void)
 {
     static const char *const runs[] = {"a1", NULL};
@@ -182,6 +210,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/options", test_options);
     g_test_add_func("/figures/rows", test_rows);
     g_test_add_func("/figures/errors", test_errors);
+    g_test_add_func("/figures/empty", test_empty);
     g_test_add_func("/figures/formats", test_formats);
     const int status = g_test_run();
     figure_folder_finish();
