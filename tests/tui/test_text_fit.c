@@ -1,10 +1,11 @@
-/* Texts that are cut: an ellipsis, and no part of a number. */
+/* Texts that are cut or wrapped: an ellipsis, and no part of a number. */
 #include "tui/term/text_fit.h"
 
 #include <glib.h>
 #include <string.h>
 
 #include "tui/plot/plot.h"
+#include "tui/term/paint.h"
 
 #define ELLIPSIS "\u2026"
 
@@ -80,11 +81,32 @@ static void test_plot(void)
     gb_plot_finish(&plot);
 }
 
+/* Rows of wrapped text: a number keeps its unit. */
+static void test_wrap(void)
+{
+    static const struct {
+        const char *text;
+        int rows;
+    } wrapped[] = {{"aaaa 12 nN bb", 3},  /* aaaa / 12 nN / bb */
+                   {"aaaa 12 nN, b", 3},  /* aaaa / 12 nN, / b */
+                   {"aaaa 12 of bb", 2},  /* aaaa 12 / of bb */
+                   {"aaa no nN bb", 2},   /* aaa no / nN bb */
+                   {"1 MPa 2 MPa", 2},
+                   {"", 0}};
+    const struct gb_paint paint = {.rect = {.rows = 9, .cols = 9}}; /* 7 between margins */
+    for (size_t i = 0; i < G_N_ELEMENTS(wrapped); i++) {
+        g_test_message("%s", wrapped[i].text);
+        g_assert_cmpint(gb_paint_wrap_rows(&paint, 9, wrapped[i].text), ==,
+                        wrapped[i].rows);
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/text_fit/cells", test_cells);
     g_test_add_func("/text_fit/bytes", test_bytes);
     g_test_add_func("/text_fit/plot", test_plot);
+    g_test_add_func("/text_fit/wrap", test_wrap);
     return g_test_run();
 }

@@ -25,7 +25,7 @@ int gb_paint_format(const struct gb_paint *paint, int row, int col, enum gb_styl
 int gb_paint_cell(const struct gb_paint *paint, int row, int col, int cols,
                   enum gb_style style, const char *text);
 
-/* Wraps at blanks; returns the number of rows used, at most `rows`. */
+/* Wraps at blanks but that between a number and its unit; returns the number of rows used, at most `rows`. */
 int gb_paint_wrap(const struct gb_paint *paint, int row, int rows, enum gb_style style,
                   const char *text);
 

@@ -1,5 +1,9 @@
+#include <stdbool.h>
+#include <string.h>
+
 #include <glib.h>
 
+#include "base/units.h"
 #include "tui/term/paint.h"
 
 /* Draws one row of wrapped text; row -1: rows are only counted. */
@@ -60,12 +64,48 @@ static void add_word(struct wrapping *wrapping, const char *word, int room)
     g_string_append_printf(line, "%s%s", line->len > 0 ? " " : "", word);
 }
 
+/* Whether a word is a unit, maybe before a comma or the like. */
+static bool is_unit(const char *word)
+{
+    const size_t length = strcspn(word, ".,;:)");
+    char *quantity = g_strdup_printf("1 %.*s", (int)length, word);
+    bool unit = false;
+    for (int d = 0; d <= GB_DIM_COMPLIANCE && length > 0 && !unit; d++) {
+        double value;
+        unit = gb_units_parse(quantity, (enum gb_dimension)d, &value, NULL);
+    }
+    g_free(quantity);
+    return unit;
+}
+
+/* Joins each number and the unit behind it: a row does not part them. */
+static void join_units(char **words)
+{
+    size_t last = 0;
+    if (words[0] == NULL) {
+        return;
+    }
+    for (size_t i = 1; words[i] != NULL; i++) {
+        const size_t length = strlen(words[last]);
+        if (length > 0 && g_ascii_isdigit(words[last][length - 1]) && is_unit(words[i])) {
+            char *both = g_strconcat(words[last], " ", words[i], NULL);
+            g_free(words[last]);
+            g_free(words[i]);
+            words[last] = both;
+        } else {
+            words[++last] = words[i];
+        }
+    }
+    words[last + 1] = NULL;
+}
+
 static int wrap(const struct gb_paint *paint, int row, int rows, enum gb_style style,
                 const char *text)
 {
     struct wrapping wrapping = {paint, row, rows, 0, style, g_string_new(NULL)};
     char *valid = g_utf8_make_valid(text, -1);
     char **words = g_strsplit(valid, " ", -1);
+    join_units(words);
     const int room = paint->rect.cols > 4 ? paint->rect.cols - 2 : 2;
     for (int i = 0; words[i] != NULL && wrapping.used < rows; i++) {
         add_word(&wrapping, words[i], room);
