@@ -225,6 +225,40 @@ static void test_pour(void)
     gb_bed_destroy(bed);
 }
 
+/* The floor's contact of the only sphere, at a height and a speed along x, after a step. */
+static double shear_at(struct gb_bed *bed, double height, double speed)
+{
+    struct gb_error err = {0};
+    bed->position[0][2] = height;
+    bed->velocity[0][0] = speed;
+    g_assert_true(gb_bed_evaluate(bed, 0.1, 1e-4, &err));
+    g_assert_cmpint(bed->walls.count, ==, 1);
+    return bed->walls.contacts.shear[0][0];
+}
+
+/* A contact that opens and closes again between two list builds begins as one that has never
+ * been listed, to the sign of a zero: states of a resumed run have the same bits. */
+static void test_reopened(void)
+{
+    const double radius = 0.5;
+    const struct gb_die die = bed_die(50.0);
+    struct gb_bed_law law = bed_law();
+    law.mu_wall = 0.3;
+    struct gb_bed *listed = bed_create(1, &radius, &die, &law);
+    struct gb_bed *fresh = bed_create(1, &radius, &die, &law);
+    for (int way = -1; way <= 1; way += 2) {
+        g_assert_cmpfloat(way * shear_at(listed, 0.49, way * 1e-3), <, 0.0);
+        g_assert_false(signbit(shear_at(listed, 0.501, way * 1e-3)));
+        gb_bed_set_law(fresh, &law);
+        const double again = shear_at(listed, 0.49, 0.0), first = shear_at(fresh, 0.49, 0.0);
+        g_assert_cmpfloat(again, ==, 0.0);
+        g_assert_cmpint(signbit(again), ==, signbit(first));
+    }
+    g_assert_cmpint(listed->rebuilds, ==, 1);
+    gb_bed_destroy(listed);
+    gb_bed_destroy(fresh);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -233,6 +267,7 @@ int main(int argc, char **argv)
     g_test_add_func("/bed/walls", test_walls);
     g_test_add_func("/bed/funnel", test_funnel);
     g_test_add_func("/bed/copy", test_copy);
+    g_test_add_func("/bed/reopened", test_reopened);
     g_test_add_func("/bed/pour", test_pour);
     return g_test_run();
 }

@@ -88,9 +88,10 @@ INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
             const double cap = mu * fn, load2 = tx * tx + ty * ty + tz * tz;
             const double held =
                 touching * ((load2 > cap * cap) ? cap / sqrt(load2) : 1.0);
-            tx *= held;
-            ty *= held;
-            tz *= held;
+            /* + 0: an open contact is as one that was never listed, which has no -0 */
+            tx = held * tx + 0.0;
+            ty = held * ty + 0.0;
+            tz = held * tz + 0.0;
             sx[k] = tx;
             sy[k] = ty;
             sz[k] = tz;
