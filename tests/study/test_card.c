@@ -6,6 +6,7 @@
 
 #include "study/card/card_files.h"
 #include "study/card/card_fit.h"
+#include "study/card/card_misfit.h"
 #include "study/card/card_probe.h"
 
 enum { LEVELS = 3, CELLS = 4 };
@@ -231,6 +232,30 @@ static void test_options(void)
     g_assert_nonnull(strstr(err.text, "--replicas 2"));
 }
 
+/* A predicted curve 10 % above a simulated one, and 0.02 in p_x/p_z.  Points at which a cell
+ * has ended, or before the first density, count for nothing. */
+static void test_misfit(void)
+{
+    struct gb_card_compared curve[GB_CARD_CURVE_POINTS];
+    struct gb_card_misfit misfit;
+    for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
+        curve[i] = (struct gb_card_compared){.density = 0.3 + 0.005 * i,
+                                             .simulated_ratio.value = 0.4,
+                                             .predicted_ratio.value = 0.42,
+                                             .simulated_pz.value = 1e6 * (i + 1),
+                                             .predicted_pz.value = 1.1e6 * (i + 1)};
+    }
+    curve[0].predicted_ratio.value = 0.2;
+    curve[GB_CARD_CURVE_POINTS - 1].simulated_ratio.value = NAN;
+    curve[GB_CARD_CURVE_POINTS - 2].predicted_pz.value = NAN;
+    gb_card_misfit_measure(&misfit, curve, 0.302);
+    g_assert_cmpfloat_with_epsilon(misfit.ratio, 0.02, 1e-12);
+    g_assert_cmpfloat_with_epsilon(misfit.ratio_most, 0.02, 1e-12);
+    g_assert_cmpfloat_with_epsilon(misfit.pressure, 0.1, 1e-12);
+    g_assert_cmpfloat(misfit.density, >, 0.005);
+    g_assert_cmpfloat(misfit.density_most, <, 0.03);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -240,5 +265,6 @@ int main(int argc, char **argv)
     g_test_add_func("/card/material", test_material);
     g_test_add_func("/card/abaqus", test_abaqus);
     g_test_add_func("/card/options", test_options);
+    g_test_add_func("/card/misfit", test_misfit);
     return g_test_run();
 }

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "measure/fit/average.h"
 #include "study/card/card_fit.h"
+#include "study/card/card_misfit.h"
 #include "study/card/card_threads.h"
 
 const struct gb_card_quantity_row gb_card_study_rows[GB_CARD_QUANTITIES] = {
@@ -154,7 +155,7 @@ static bool curve_at(const GArray *curve, double density, double *px, double *pz
     return false;
 }
 
-/* Ratio of the mean pressures; its error by the jackknife. */
+/* Ratio of the mean pressures; its error by the jackknife.  NaN beyond the end of a cell. */
 static void simulate(struct gb_card_compared *at, const struct gb_card_cell *cells,
                      int replicas, int path, double *room)
 {
@@ -165,7 +166,8 @@ static void simulate(struct gb_card_compared *at, const struct gb_card_cell *cel
         px += there ? one_x : (double)NAN;
         pz += room[c];
     }
-    at->simulated_pz = with_error(room, replicas);
+    at->simulated_pz = isfinite(pz) ? with_error(room, replicas)
+                                    : (struct gb_fit_value){NAN, NAN, NAN, NAN};
     for (int c = 0; c < replicas; c++) {
         const bool there = curve_at(cells[c].curve[path], at->density, &one_x, &one_z);
         room[c] = there ? (px - one_x) / (pz - one_z) : (double)NAN;
@@ -200,46 +202,6 @@ static bool compare(struct gb_card_study *study, const struct jackknife *jack,
     return true;
 }
 
-/* Density at which the predicted curve has the pressure; NaN outside. */
-static double predicted_density(const struct gb_card_compared *at, double pz)
-{
-    double x[GB_CARD_CURVE_POINTS], y[GB_CARD_CURVE_POINTS];
-    for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
-        x[i] = at[i].predicted_pz.value;
-        y[i] = at[i].density;
-    }
-    const struct gb_average_curve curve = {x, y, GB_CARD_CURVE_POINTS};
-    return gb_average_crossing(&curve, pz, NULL);
-}
-
-static void measure_misfit(struct gb_card_study *study, int path)
-{
-    struct gb_card_misfit *misfit = &study->misfit[path];
-    const struct gb_card_compared *curve = study->curve[path];
-    int count = 0, densities = 0;
-    for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
-        const struct gb_card_compared *at = &curve[i];
-        if (at->density < study->compared_from || !isfinite(at->simulated_pz.value)) {
-            continue;
-        }
-        const double ratio = at->predicted_ratio.value - at->simulated_ratio.value;
-        const double share = at->predicted_pz.value / at->simulated_pz.value - 1.0;
-        const double off = predicted_density(curve, at->simulated_pz.value) - at->density;
-        misfit->ratio += ratio * ratio;
-        misfit->pressure += share * share;
-        misfit->ratio_most = fmax(misfit->ratio_most, fabs(ratio));
-        count++;
-        if (isfinite(off)) {
-            misfit->density += off * off;
-            misfit->density_most = fmax(misfit->density_most, fabs(off));
-            densities++;
-        }
-    }
-    misfit->ratio = sqrt(misfit->ratio / count);
-    misfit->pressure = sqrt(misfit->pressure / count);
-    misfit->density = sqrt(misfit->density / densities);
-}
-
 static bool fit(struct gb_card_study *study, const struct gb_card_cell *cells,
                 struct gb_error *err)
 {
@@ -262,7 +224,8 @@ static bool fit(struct gb_card_study *study, const struct gb_card_cell *cells,
     for (int path = 0; path < GB_CARD_PATHS && good; path++) {
         good = compare(study, &jack, cells, path, grid, err);
         if (good) {
-            measure_misfit(study, path);
+            gb_card_misfit_measure(&study->misfit[path], study->curve[path],
+                                   study->compared_from);
         }
     }
     jackknife_finish(&jack);

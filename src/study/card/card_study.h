@@ -7,6 +7,7 @@
 #include "measure/cap/cap_path.h"
 #include "measure/fit/fit.h"
 #include "study/card/card_cell.h"
+#include "study/card/card_misfit.h"
 
 /* A Drucker-Prager cap card of a powder: parameters against density from the yield points
  * of replicas, each with its 95 % interval (jackknife over the replicas, Student's t), and
@@ -38,22 +39,6 @@ struct gb_card_values {
     double value[GB_CARD_LEVELS_MAX][GB_CARD_QUANTITIES];
     double rms[GB_CARD_LEVELS_MAX]; /* of the points from the surface, Pa */
     double start_density;           /* of the unloaded first compact */
-};
-
-enum { GB_CARD_CURVE_POINTS = 60 };
-
-/* Pressing along a path, simulated and predicted, at one density. */
-struct gb_card_compared {
-    double density;
-    struct gb_fit_value simulated_ratio, simulated_pz; /* p_x/p_z; Pa */
-    struct gb_fit_value predicted_ratio, predicted_pz;
-};
-
-struct gb_card_misfit {
-    double ratio;    /* rms of predicted less simulated p_x/p_z */
-    double pressure; /* rms of predicted over simulated p_z, less 1 */
-    double density;  /* rms of predicted less simulated density at the same p_z */
-    double ratio_most, density_most; /* largest of either sign */
 };
 
 struct gb_card_study {
