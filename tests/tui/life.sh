@@ -103,7 +103,7 @@ under_tmux() {
     term new-session -d -x 100 -y 30 "$greenbody $scene"
     is 'tmux: the run is kept' more_rows 3
     find_engine ''
-    term kill-server
+    close_terminal
     lives_on tmux
 }
 
@@ -137,7 +137,7 @@ for _ in $(seq "$times"); do
     find_engine "$before"
     at=$(rows)
     is 'with more rows' more_rows $((at + 2))
-    term kill-server
+    close_terminal
     lives_on 'taken over'
     ends 'taken over'
 done
@@ -150,7 +150,7 @@ is 'stop: the run is kept' more_rows 3
 find_engine ''
 stopped=$engine
 engine=
-term kill-server
+close_terminal
 is 'stop: the engine ends with its terminal' gone "$stopped"
 status_is stopped && [ -s "$run/state.h5" ]
 result 'stop: with a checkpoint' $?
@@ -192,7 +192,7 @@ is 'log: the screen says that there is none' has 'nothing is logged: .*is not a 
 watcher=$(term display -p '#{pane_pid}')
 kill -TERM "$watcher"
 is 'log: TERM ends it' gone "$watcher"
-term kill-server 2>/dev/null
+close_terminal
 rm -rf "$here/state"
 run=$here/quiet
 

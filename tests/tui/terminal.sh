@@ -40,6 +40,22 @@ term() {
     tmux -u -L "$socket" -f /dev/null "$@"
 }
 
+has_process() { # number; one that has ended and is not yet taken off has no environment
+    grep -qs . "/proc/$1/environ"
+}
+
+has_no_process() {
+    ! has_process "$1"
+}
+
+# Closes the terminal.  A server that ends may still take the command that should start the
+# next one, which is lost then.
+close_terminal() {
+    server=$(term display-message -p '#{pid}' 2>/dev/null)
+    term kill-server 2>/dev/null
+    until_true has_no_process "${server:-none}"
+}
+
 screen() {
     term capture-pane -p
 }

@@ -26,21 +26,15 @@ pid_of() { # directory
 without=$(pid_of "$folder/run")
 closed=$(pid_of "$folder/state/greenbody/runs/default-1")
 
-works() { # process; one that has ended and is not yet taken off has no environment
-    grep -qs . "/proc/$1/environ"
-}
-is 'the run of the closed terminal goes on' works "$closed"
-is 'so does the one without' works "$without"
+is 'the run of the closed terminal goes on' has_process "$closed"
+is 'so does the one without' has_process "$without"
 
 kill -TERM $inner
 wait $inner
 is 'the stopped test has failed' [ $? -eq 1 ]
 is 'and said where' grep -q '^# stopped after test' "$here/out"
-ended() { # process
-    ! works "$1"
-}
-is 'the run of the closed terminal has ended' ended "$closed"
-is 'so has the one without' ended "$without"
+is 'the run of the closed terminal has ended' has_no_process "$closed"
+is 'so has the one without' has_no_process "$without"
 is 'and the folder is gone' [ ! -e "$folder" ]
 for pid in $closed $without; do
     kill -KILL "$pid" 2>/dev/null

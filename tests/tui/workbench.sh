@@ -301,7 +301,7 @@ keys "clear; sh -c 'echo \$\$ >$here/pid; exec $greenbody $long \
 output.on_hangup=stop'" Enter
 shows "opens a last time" 'Parameters'
 pid=$(cat "$here/pid")
-term kill-server
+close_terminal
 is "ends when the terminal is closed" until_true eval "! kill -0 $pid 2>/dev/null"
 
 echo "1..$tests"
