@@ -182,7 +182,7 @@ term resize-window -x 200 -y 60
 shows "200 x 60 spells names out" 'mean coordination number'
 shows "nothing was lost" 'run 1 started'
 term resize-window -x 80 -y 24
-shows "80 x 24 again" 'Parameters'
+is "80 x 24 again" until_true fits_80
 keys C-z
 shows "Ctrl-Z gives the shell" 'Stopped'
 keys "clear; fg; echo status=\$?" Enter
