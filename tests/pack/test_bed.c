@@ -246,9 +246,9 @@ static void test_reopened(void)
     law.mu_wall = 0.3;
     struct gb_bed *listed = bed_create(1, &radius, &die, &law);
     struct gb_bed *fresh = bed_create(1, &radius, &die, &law);
-    for (int way = -1; way <= 1; way += 2) {
-        g_assert_cmpfloat(way * shear_at(listed, 0.49, way * 1e-3), <, 0.0);
-        g_assert_false(signbit(shear_at(listed, 0.501, way * 1e-3)));
+    for (int sign = -1; sign <= 1; sign += 2) {
+        g_assert_cmpfloat(sign * shear_at(listed, 0.49, sign * 1e-3), <, 0.0);
+        g_assert_false(signbit(shear_at(listed, 0.501, sign * 1e-3)));
         gb_bed_set_law(fresh, &law);
         const double again = shear_at(listed, 0.49, 0.0), first = shear_at(fresh, 0.49, 0.0);
         g_assert_cmpfloat(again, ==, 0.0);
