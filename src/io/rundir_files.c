@@ -59,14 +59,29 @@ static bool is_engine_leftover(const char *name)
     return false;
 }
 
+/* What is left of a name behind the last ending of this kind; NULL: it has none. */
+static const char *behind_ending(const char *name, const char *ending)
+{
+    const char *at = g_strrstr(name, ending);
+    return at != NULL ? at + strlen(ending) : NULL;
+}
+
 static bool is_snapshot_name(const char *name)
 {
     static const char *const ends[] = {".h5", ".png", ".lammps-data", ".csv", ".vtkhdf"};
     bool known = false;
     for (size_t k = 0; k < G_N_ELEMENTS(ends); k++) {
-        known = known || g_str_has_suffix(name, ends[k]);
+        const char *tail = behind_ending(name, ends[k]);
+        known = known || (tail != NULL && (*tail == '\0' || is_leftover(tail)));
     }
     return known;
+}
+
+/* Of the states that an engine alone keeps among the snapshots. */
+static bool is_state_leftover(const char *name)
+{
+    const char *tail = behind_ending(name, ".h5");
+    return tail != NULL && is_leftover(tail);
 }
 
 static bool has_type(const char *path, mode_t type)
@@ -149,5 +164,10 @@ bool gb_rundir_files_remove(const char *path, struct gb_error *err)
 void gb_rundir_files_tidy(const char *path)
 {
     struct gb_error ignored;
+    char *snapshots = g_build_filename(path, snapshot_folder, NULL);
     (void)clear_files(path, is_engine_leftover, &ignored);
+    if (has_type(snapshots, S_IFDIR)) {
+        (void)clear_files(snapshots, is_state_leftover, &ignored);
+    }
+    g_free(snapshots);
 }

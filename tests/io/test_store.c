@@ -14,6 +14,7 @@
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/status/status_json.h"
+#include "io/rundir_files.h"
 #include "io/store.h"
 
 static char *base; /* a folder of its own for each test */
@@ -234,6 +235,15 @@ static void test_existing(void)
     char *snapshots = g_build_filename(directory, "snapshots", NULL);
     g_assert_cmpint(g_mkdir(snapshots, 0777), ==, 0);
     put(snapshots, "a.h5");
+    put(snapshots, "point-000051.h5.P0O6Y3"); /* a killed writer's */
+    put(snapshots, "b.png.P0O6Y3");
+    gb_rundir_files_tidy(directory);
+    g_assert_false(exists(snapshots, "point-000051.h5.P0O6Y3"));
+    g_assert_true(exists(snapshots, "a.h5"));
+    g_assert_true(exists(snapshots, "b.png.P0O6Y3")); /* maybe another command's */
+    g_assert_false(exists(directory, "status.json.AB12CD"));
+    put(directory, "status.json.AB12CD");
+    put(snapshots, "point-000051.h5.P0O6Y3");
     put(snapshots, "mine.txt");
     refused(directory, GB_RUNDIR_REPLACE, GB_ERR_INPUT, "mine.txt");
     g_assert_true(exists(directory, "curve.csv"));
