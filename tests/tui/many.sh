@@ -107,7 +107,7 @@ keys C-u
 keys -l 'nuu'
 keys Enter
 shows "an unknown key is refused by name, in the dialog" 'nuu: no such key'
-shows "and to the end of the line" 'group.key=value'
+shows "and to the end of the line" 'as contact.mu'
 mv "$here/lab.csv" "$here/gone.csv"
 keys C-u
 keys -l 'mu,alpha'
