@@ -18,6 +18,7 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         int n;                                                                             \
         real cutoff2; /* squared reach of the attraction, d^2 */                           \
         real damp;    /* viscous time A over time step; viscous scenes only */             \
+        real loose;   /* number of contacts without a bridge, between the halves */        \
         /* in: branch vectors r_ij, sum and difference of the rotation increments of     \
          * i and j since the last evaluation */ \
         _Alignas(64) real r[3][GB_BATCH];                                                  \
@@ -30,7 +31,6 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         real sliding[GB_BATCH];  /* 1: shear spring at its cap */                          \
         real absorbed[GB_BATCH]; /* work absorbed in this step; viscous scenes */          \
         /* from the first half of a law to the second */                                   \
-        real loose; /* number of contacts without a bridge */                              \
         real unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH];                      \
         real rate[8][GB_BATCH]; /* increments of the springs; 7: of h */                   \
         /* unequal sizes: 1/d_i, 1/d_j, their mean D, 1/D and d' = d_i d_j/D */            \
