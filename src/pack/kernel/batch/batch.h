@@ -33,6 +33,10 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         /* from the first half of a law to the second */                                   \
         real unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH];                      \
         real rate[8][GB_BATCH]; /* increments of the springs; 7: of h */                   \
+        /* f_n and its slope; from the caps to the forces */                               \
+        real along[GB_BATCH], slope[GB_BATCH];                                             \
+        /* of shear, pivoting and rolling: what the cap leaves of a spring; 1: below it */ \
+        real stiffness[3][GB_BATCH], kept[3][GB_BATCH], below[3][GB_BATCH];                \
         /* unequal sizes: 1/d_i, 1/d_j, their mean D, 1/D and d' = d_i d_j/D */            \
         real inverse[2][GB_BATCH], mean[GB_BATCH], inverse_mean[GB_BATCH],                 \
             reduced[GB_BATCH];                                                             \

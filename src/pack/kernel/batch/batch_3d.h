@@ -1,6 +1,7 @@
 #ifndef GB_PACK_KERNEL_BATCH_3D_H
 #define GB_PACK_KERNEL_BATCH_3D_H
 
+#include "pack/kernel/batch/batch_caps.h"
 #include "pack/kernel/batch/batch_laws.h"
 #include "scene/unequal_pair.h"
 
@@ -136,43 +137,6 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
     b->loose = loose;
 }
 
-/* Constants of shear, pivoting and rolling. */
-struct slip_law {
-    real shear, pivot, roll, mu, mu_pivot;
-    real bond; /* pi sigma_b */
-    /* the two terms of M(a) */
-    real plate, rod;
-};
-
-INLINE struct slip_law slip_law(const struct gb_law_slip *slip,
-                                const struct gb_law_rod *rod)
-{
-    return (struct slip_law){
-        .shear = (real)slip->shear,
-        .pivot = (real)slip->pivot,
-        .roll = (real)slip->roll,
-        .mu = (real)slip->mu,
-        .mu_pivot = (real)slip->mu_pivot,
-        .bond = (real)(M_PI * slip->strength),
-        .plate = (real)(3.0 * M_PI / 32.0 * rod->hertz),
-        .rod = (real)(0.5 * rod->pivot),
-    };
-}
-
-/* Integral of pressure times radius over the area of contact, by the fit of its tail. */
-INLINE real fitted_moment(const struct slip_law *slip, real from, real root)
-{
-    return from * from * (slip->plate + slip->rod * root * moment_tail(from));
-}
-
-/* Of unequal sizes: root is that of d' h. */
-INLINE real fitted_unequal_moment(const struct slip_law *slip, struct pair_size size,
-                                  real from, real root)
-{
-    const real tail = slip->rod * root * moment_tail(from * size.inverse_mean);
-    return size.reduced * (from * from) * (slip->plate + tail * size.inverse_mean);
-}
-
 /* Second half, 3D: springs cut at their caps; forces and torques. */
 INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                              BATCH *restrict b, struct gb_contacts *restrict c,
@@ -188,56 +152,31 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
     real *restrict last_shear = t.viscous ? PLANE(c->last_shear) : NULL;
     real *restrict last_roll = t.viscous ? PLANE(c->last_roll) : NULL;
     real *restrict last_pivot = t.viscous ? PLANE(c->last_pivot) : NULL;
-    const struct slip_law slip = slip_law(&model->slip, &model->rod);
-    const struct normal_law law = normal_law(model, b->cutoff2);
-    const real half = 0.5, quarter = 0.25, third = (real)(1.0 / 3.0);
+    const real half = 0.5;
     const real inverse_motion = (real)(1.0 / model->slip.motion);
-    const real damp = b->damp, relative = (real)model->bridge.length;
+    const real damp = b->damp;
     const real shear_damp = damp * (real)model->dynamics.viscous_shear;
     const real roll_damp = damp * (real)model->dynamics.viscous_rolling;
+    cut_springs_3d(model, t, b, c, slot);
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const real nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
-        const real r = b->distance[k], h = b->overlap[k], state = deepest[k];
-        const bool held = t.bridges & (state > 0);
-        const bool live = state >= 0;
+        const real r = b->distance[k], h = b->overlap[k];
         const struct pair_size size = stored_size(t, b, k);
-        const real length = relative * size.mean;
-        const struct normal f = t.sized ? unequal_force(t, &law, size, state, h)
-                                        : normal_force(t, &law, state, h, r);
-        real fn = f.total, absorbed = 0.0;
+        real fn = b->along[k], absorbed = 0.0;
         if (t.viscous) {
-            const real lag = damp * f.slope * b->rate[7][k];
+            const real lag = damp * b->slope[k] * b->rate[7][k];
             absorbed = (half * (last_normal[k] + fn) + lag) * b->rate[7][k];
             last_normal[k] = fn;
             fn += lag;
         }
         real fx = fn * nx, fy = fn * ny, fz = fn * nz;
         real tx = 0.0, ty = 0.0, tz = 0.0, jx = 0.0, jy = 0.0, jz = 0.0;
-        real slides = 0.0;
         if (t.friction) {
-            const real a2 =
-                where(live, quarter * radius_square(t, length, state, h, size.reduced));
-            const real a = radius(t, a2, live, f.root);
-            const real from = larger(h, 0);
-            const real ks = slip.shear * a, kp = slip.pivot * a2 * a;
-            const real strength = a2 * slip.bond;
-            const real twisting = half * a2 * a * slip.bond;
-            const real cap = held ? strength : smaller(slip.mu * f.elastic, strength);
-            const real moment = t.unpivoted      ? 0
-                                : !MOMENT_FITTED ? b->moment[k]
-                                : t.sized
-                                    ? fitted_unequal_moment(&slip, size, from, f.root)
-                                    : fitted_moment(&slip, from, f.root);
-            const real pivot_cap =
-                held ? twisting : smaller(slip.mu_pivot * moment, twisting);
+            const real ks = b->stiffness[0][k], kp = t.unpivoted ? 0 : b->stiffness[1][k];
+            const real keep = b->kept[0][k], stay = t.unpivoted ? 1 : b->kept[1][k];
             real vx = sx[k], vy = sy[k], vz = sz[k], p = t.unpivoted ? 0 : pivot[k];
             const real ox = vx, oy = vy, oz = vz, op = p;
-            const real v2 = vx * vx + vy * vy + vz * vz;
-            const real shear2 = ks * ks * v2, pivot2 = kp * kp * p * p;
-            const bool cut = shear2 > cap * cap, pivots = pivot2 > pivot_cap * pivot_cap;
-            const real keep = cut_to(t, cap, shear2, cut);
-            const real stay = t.unpivoted ? 0 : cut_to(t, pivot_cap, pivot2, pivots);
             vx *= keep;
             vy *= keep;
             vz *= keep;
@@ -248,15 +187,14 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
             if (!t.unpivoted) {
                 pivot[k] = p;
             }
-            slides = mask(cut);
             if (t.viscous) {
                 /* work over the step: mean of the spring forces before (rotated with the
                  * contact) and after */
                 const real ux = b->rate[0][k], uy = b->rate[1][k], uz = b->rate[2][k];
                 const real up = b->rate[3][k];
                 const real was = last_shear[k], pivot_was = last_pivot[k];
-                const real lag = shear_damp * mask(!cut);
-                const real pivot_lag = roll_damp * mask(!pivots);
+                const real lag = shear_damp * b->below[0][k];
+                const real pivot_lag = roll_damp * b->below[1][k];
                 const real fore = (ox - ux) * ux + (oy - uy) * uy + (oz - uz) * uz;
                 const real aft = vx * ux + vy * uy + vz * uz;
                 const real u2 = ux * ux + uy * uy + uz * uz;
@@ -276,14 +214,11 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
             fz -= ks * vz;
             real mx = -kp * p * nx, my = -kp * p * ny, mz = -kp * p * nz;
             if (t.bridges) {
-                const real kr = slip.roll * a2 * a;
-                const real roll_cap = a * larger(f.elastic, 0) * third;
+                const bool held = deepest[k] > 0;
+                const real kr = b->stiffness[2][k];
+                const real hold = where(held, b->kept[2][k]);
                 real px = qx[k], py = qy[k], pz = qz[k];
                 const real qox = px, qoy = py, qoz = pz;
-                const real p2 = px * px + py * py + pz * pz;
-                const real roll2 = kr * kr * p2;
-                const bool rolls = roll2 > roll_cap * roll_cap;
-                const real hold = where(held, cut_to(t, roll_cap, roll2, rolls));
                 px *= hold;
                 py *= hold;
                 pz *= hold;
@@ -292,7 +227,7 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                 qz[k] = pz;
                 if (t.viscous) {
                     const real gx = b->rate[4][k], gy = b->rate[5][k], gz = b->rate[6][k];
-                    const real lag = roll_damp * mask(!rolls & held);
+                    const real lag = where(held, roll_damp * b->below[2][k]);
                     const real fore = (qox - gx) * gx + (qoy - gy) * gy + (qoz - gz) * gz;
                     const real aft = px * gx + py * gy + pz * gz;
                     absorbed +=
@@ -332,11 +267,9 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
         if (t.viscous) {
             b->absorbed[k] = absorbed;
         }
-        b->normal[k] = where(live, magnitude(f.elastic - f.adhesion));
         if (t.sized) { /* for the tally */
             b->overlap[k] = h * size.inverse_mean;
         }
-        b->sliding[k] = slides;
     }
 }
 
