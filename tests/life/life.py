@@ -205,7 +205,7 @@ class Life:
     @staticmethod
     def _stands(process):
         with open(f'/proc/{process.pid}/stat', encoding='utf-8') as file:
-            return file.read().rpartition(')')[2].split()[0] in 'TZ'
+            return file.read().rpartition(')')[2].split()[0] in 'TtZ'
 
     def _is_locked(self):
         """Whether an engine has begun to write there."""
