@@ -256,6 +256,26 @@ static void test_precision(void)
     g_assert_false(scene_model(&tight).numerics.single);
 }
 
+/* A filled cell has density 1, not one that rounding makes a little larger. */
+static void test_filled(void)
+{
+    int filled = 0;
+    for (int s = 0; s < 40; s++) {
+        const struct gb_params params = scene_params("structure.density=0.3", NULL);
+        const struct gb_model model = scene_model(&params);
+        struct gb_world *world = scene_world(&model);
+        const double part = cbrt(pow(gb_observe_density(world), 1.0 / (s + 1)));
+        for (int k = 0; k <= s; k++) {
+            gb_world_strain(world, (const double[3]){part, part, part});
+        }
+        g_assert_cmpfloat_with_epsilon(gb_observe_density(world), 1.0, 1e-12);
+        g_assert_cmpfloat(gb_observe_density(world), <=, 1.0);
+        filled += gb_observe_density(world) == 1.0;
+        gb_world_destroy(world);
+    }
+    g_assert_cmpint(filled, >, 5);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -269,6 +289,7 @@ int main(int argc, char **argv)
     g_test_add_data_func("/world/threads-single", &precisions[1], test_threads);
     g_test_add_data_func("/world/copy", &precisions[0], test_copy);
     g_test_add_data_func("/world/copy-single", &precisions[1], test_copy);
+    g_test_add_func("/world/filled", test_filled);
     g_test_add_func("/world/not-finite", test_not_finite);
     g_test_add_func("/world/small-cell", test_small_cell);
     g_test_add_data_func("/world/memory", &precisions[0], test_memory);

@@ -4,13 +4,21 @@
 
 #include "base/vec.h"
 #include "pack/kernel/virial.h"
+#include "scene/tolerances.h"
+
+/* A cell that is filled to the last pore has density 1, whatever the product of its strains
+ * is rounded to. */
+static double without_rounding(double density)
+{
+    return density > 1.0 && density < 1.0 + GB_DENSITY_END_TOLERANCE ? 1.0 : density;
+}
 
 double gb_world_measure_density(const struct gb_world *world)
 {
     const struct gb_model *model = gb_world_model(world);
     const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    return shape * model->mean_power * (double)model->count /
-           gb_cell_volume(gb_world_cell(world));
+    return without_rounding(shape * model->mean_power * (double)model->count /
+                            gb_cell_volume(gb_world_cell(world)));
 }
 
 void gb_world_measure_pressure(const struct gb_world *world, double pressure[3][3])

@@ -35,6 +35,12 @@ static double accurate_step(const struct gb_dynamic *motion, double frequency,
     return share / fmax(frequency, GB_FREQUENCY_MIN);
 }
 
+/* The step that strains the cell as much as the work of pressing allows. */
+static double straining_step(const struct gb_dynamic *motion)
+{
+    return GB_STEP_STRAIN_MAX / motion->model->dynamics.rate;
+}
+
 /* The automatic step, of accuracy or of stability.  Strong damping bounds it more. */
 static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
                         char *text, size_t size)
@@ -42,7 +48,8 @@ static double pick_step(struct gb_dynamic *motion, double frequency, double crit
     const bool loading = motion->stage == GB_DYNAMIC_LOAD;
     const double loaded = accurate_step(motion, frequency, GB_STEP_ERROR_UNIT);
     const double accurate =
-        loading ? loaded : accurate_step(motion, frequency, GB_STEP_ERROR_UNIT_FREE);
+        loading ? fmin(loaded, straining_step(motion))
+                : accurate_step(motion, frequency, GB_STEP_ERROR_UNIT_FREE);
     const double stable = GB_STEP_CRITICAL_FRACTION * critical;
     if (stable < 0.5 * loaded && !motion->limit_reported) {
         motion->limit_reported = true;
