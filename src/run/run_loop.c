@@ -221,6 +221,9 @@ enum gb_step_outcome gb_run_loop_slice(struct gb_run_loop *loop)
         loop->last = gb_experiment_advance(loop->experiment, gb_pace_slice(&loop->pace),
                                            &loop->error);
         gb_pace_sliced(&loop->pace, gb_clock_s() - from, loop->last == GB_STEP_MORE);
+        if (loop->last != GB_STEP_STOPPED) {
+            loop->error = (struct gb_error){0}; /* one that a guard has dealt with */
+        }
     }
     return loop->last;
 }
