@@ -222,7 +222,7 @@ enum gb_step_outcome gb_run_loop_slice(struct gb_run_loop *loop)
                                            &loop->error);
         gb_pace_sliced(&loop->pace, gb_clock_s() - from, loop->last == GB_STEP_MORE);
         if (loop->last != GB_STEP_STOPPED) {
-            loop->error = (struct gb_error){0}; /* one that a guard has dealt with */
+            loop->error = (struct gb_error){0}; /* one from which a guard went on */
         }
     }
     return loop->last;
