@@ -67,11 +67,21 @@ cp large/runs.csv large.csv
 is 'read again' large
 is 'it is the same cell' cmp -s large.csv large/runs.csv
 
+# Step of the row that took least processor time here, for which a setting of few milliseconds
+# is no sure thing; every error is below 1.
+cheapest() {
+    awk -F, '/^[a-z]*,[0-9]/ && $9 == 0 && $14 != "" && (!row++ || $13 < least) {
+                 least = $13
+                 step = $3
+             }
+             END { if (row == 5) printf "%g %%", 100 * step }' out/chart.csv
+}
+
 is 'the setting goes into a copy' chart --allow 1 --out out --write copy.ini
 is 'that differs in its numbers only' sh -c "diff mine.ini copy.ini | grep '^[<>]' |
     grep -vqE '^[<>] (step|strain_part|relaxer|tolerance|cutoff|precision) = ' && exit 1; exit 0"
 is 'and keeps the rest' grep -q '^title = mine  # kept' copy.ini
-is 'with the cheapest step' grep -q '^step = 1 %' copy.ini
+is 'with the cheapest step' grep -q "^step = $(cheapest)$" copy.ini
 is 'another file is not replaced' refused "$greenbody" chart \
     mine.ini --seeds 3 --at '20 MPa; 50 MPa' --out out --write before.ini
 is 'but the preset itself is' chart --allow 1 --out out --write mine.ini
