@@ -273,8 +273,10 @@
  * of an impact are above the critical one. */
 #define GB_STEP_GROWTH_MAX 1.05
 
-/* Longest automatic step of a die scene (T): nothing else bounds it while all is at rest
- * without contacts.  In 1 T sound crosses a particle. */
+/* Longest automatic step (T) of die scenes, and of dynamic ones by the smallest diameter:
+ * nothing else bounds it while no contact is stiff.  In 1 T sound crosses a particle of
+ * diameter d.  Longer: particles are deep in each other before a contact is seen; without
+ * attraction the energies of collisions differ by 20 times the work (/motion/free). */
 #define GB_FREE_STEP_MAX 1.0
 
 /* Powder is at rest when its mean kinetic energy is below a fall by this (d)

@@ -295,6 +295,22 @@ static void test_fast(void)
     g_assert_cmpfloat(out.residual, <, 2e-3);
 }
 
+/* Without attraction no contact bounds the step of a packing before the first collisions,
+ * nor between two of them. */
+static void test_free(void)
+{
+    const struct gb_params params = scene_params(
+        "scene.kind=dynamic", "scene.dimension=2", "particles.count=140",
+        "material.epsilon=0 kB", "contact.mu=0.5", "structure.density=0.5",
+        "loading.rate=6.8e7 1/s", "loading.until=density = 0.52", "loading.record=0.2 %",
+        "loading.relax=1 ns", "loading.hold=1 ns", "loading.record_time=0.5 ns", NULL);
+    const struct outcome out = press(&params, 1000);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
+    g_test_message("energy residual at most %.2e, at the end %.2e of the work",
+                   out.residual_most, out.residual);
+    g_assert_cmpfloat(out.residual_most, <, 5e-3);
+}
+
 /* Slices of any length, threads in any number: same bits. */
 static void test_repeat(void)
 {
@@ -464,6 +480,7 @@ int main(int argc, char **argv)
     g_test_add_func("/motion/momentum", test_momentum);
     g_test_add_func("/motion/energy", test_energy);
     g_test_add_func("/motion/fast", test_fast);
+    g_test_add_func("/motion/free", test_free);
     g_test_add_func("/motion/repeat", test_repeat);
     g_test_add_func("/motion/guards", test_guards);
     g_test_add_func("/motion/sliding", test_sliding);

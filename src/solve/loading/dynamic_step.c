@@ -59,7 +59,8 @@ static double pick_step(struct gb_dynamic *motion, double frequency, double crit
             "%.3g T)",
             stable, loaded);
     }
-    return fmin(fmin(accurate, stable), motion->limit);
+    const double crossing = GB_FREE_STEP_MAX * motion->model->diameter_min;
+    return fmin(fmin(fmin(accurate, stable), crossing), motion->limit);
 }
 
 double gb_dynamic_step_allowed(struct gb_dynamic *motion, const struct gb_world *world,
