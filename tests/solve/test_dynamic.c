@@ -291,8 +291,8 @@ static void test_fast(void)
     g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_test_message("energy residual at most %.2e, at the end %.2e of the work",
                    out.residual_most, out.residual);
-    g_assert_cmpfloat(out.residual_most, <, 0.05);
-    g_assert_cmpfloat(out.residual, <, 2e-3);
+    g_assert_cmpfloat(out.residual_most, <, 0.015);
+    g_assert_cmpfloat(out.residual, <, 5e-4);
 }
 
 /* Without attraction no contact bounds the step of a packing before the first collisions,
