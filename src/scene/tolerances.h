@@ -293,9 +293,9 @@
  * lie within one vibration.  More: a stage ends later. */
 #define GB_REST_CHECK_STEPS 256
 
-/* Time steps, at most, between checks for particles outside the die; the check also runs
- * after each rebuild of the lists.  A slow escape takes many steps, and a fast one causes
- * a rebuild.  More: an escaped particle moves the bed before a guard acts. */
+/* Time steps between checks for particles outside the die, which are also made at each
+ * point and at the end of a stage.  More: an escaped particle moves the bed before a guard
+ * acts. */
 #define GB_ESCAPE_CHECK_STEPS 16
 
 /* A cell that is higher than wide by the first and whose height (d) times

@@ -178,6 +178,49 @@ static void test_faults(void)
     check_fault(spoil_punch, "punch is below");
 }
 
+/* Time steps to a point at which no check for escapes is due anyway. */
+static int64_t steps_to_point(const struct gb_params *params)
+{
+    struct gb_error err = {0};
+    struct gb_experiment *experiment = NULL;
+    g_assert_true(gb_experiment_create(&experiment, params, NULL, NULL, &err));
+    int64_t steps = 1, points = 0;
+    while (gb_experiment_advance(experiment, 1, &err) != GB_STEP_POINT || points++ < 2 ||
+           steps % GB_ESCAPE_CHECK_STEPS == 0) {
+        steps++;
+    }
+    gb_experiment_destroy(experiment);
+    return steps;
+}
+
+/* No point is recorded with a particle outside, also where the lists, which a resumed run
+ * builds at other steps, are not built anew. */
+static void test_escape_at_point(void)
+{
+    struct gb_error err = {0};
+    const struct gb_params params = die_params(NULL);
+    struct gb_experiment *experiment = NULL;
+    GString *events = g_string_new(NULL);
+    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+    for (int64_t left = steps_to_point(&params) - 1; left > 0; left--) {
+        gb_experiment_advance(experiment, 1, &err);
+    }
+    take_events(experiment, events);
+    g_string_truncate(events, 0);
+    struct gb_bed *bed = experiment->loading->bed;
+    const double fall = bed->position[11][2] + 1e-3;
+    const int64_t rebuilds = bed->rebuilds;
+    bed->position[11][2] -= fall;
+    bed->listed_position[11][2] -= fall;
+    g_assert_cmpint(gb_experiment_advance(experiment, 1, &err), ==, GB_STEP_MORE);
+    g_assert_cmpint(bed->rebuilds, ==, rebuilds);
+    take_events(experiment, events);
+    g_assert_nonnull(strstr(events->str, "left the die"));
+    g_assert_cmpint(gb_bed_escaped(bed), ==, -1);
+    g_string_free(events, TRUE);
+    gb_experiment_destroy(experiment);
+}
+
 static int64_t highest(const struct gb_bed *bed)
 {
     int64_t best = 0;
@@ -460,6 +503,7 @@ int main(int argc, char **argv)
     g_test_add_func("/die/clogged", test_clogged);
     g_test_add_func("/die/step_above_critical", test_step_above_critical);
     g_test_add_func("/die/faults", test_faults);
+    g_test_add_func("/die/escape-at-point", test_escape_at_point);
     g_test_add_func("/die/straggler", test_straggler);
     g_test_add_func("/die/refused", test_refused);
     g_test_add_func("/die/state", test_state);

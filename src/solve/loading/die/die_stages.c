@@ -13,6 +13,8 @@
 #include "solve/loading/die/die_sequence.h"
 #include "solve/loading/die/die_state.h"
 
+enum { ESCAPE_TEXT = 160 };
+
 bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene *scene,
                           const struct gb_bed_law *law, struct gb_error *err)
 {
@@ -127,19 +129,35 @@ static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_b
     return GB_STEP_STOPPED;
 }
 
+/* No state with a particle outside is kept; lists, which a resumed run builds at other
+ * steps, have no part in it. */
+static bool find_escape(const struct gb_bed *bed, char *why, size_t size)
+{
+    const int64_t lost = gb_bed_escaped(bed);
+    if (lost >= 0) {
+        write_escape(bed, lost, why, size);
+    }
+    return lost >= 0;
+}
+
 /* What a step may not leave behind, checked at every step: MORE if nothing does. */
 static enum gb_step_outcome check_punch(struct gb_die_stages *stages, struct gb_bed *bed,
                                         char *text, size_t size, struct gb_error *err)
 {
     const double density = pressed_density(stages, bed);
+    char why[ESCAPE_TEXT];
     if (thrown_off(stages, bed)) {
         return halve_time_step(
             stages, bed,
             "the powder has thrown off the punch, which is light (die.punch_mass)", text,
             size, err);
     }
-    return density > GB_DIE_DENSITY_MAX ? stop_dense(stages, bed, density, err)
-                                        : GB_STEP_MORE;
+    if (!(density > GB_DIE_DENSITY_MAX)) {
+        return GB_STEP_MORE;
+    }
+    return find_escape(bed, why, sizeof why)
+               ? halve_time_step(stages, bed, why, text, size, err)
+               : stop_dense(stages, bed, density, err);
 }
 
 /* A stage before pressing: pressing begins with a recorded point, every other stage with
@@ -155,19 +173,37 @@ static enum gb_step_outcome check_stage(struct gb_die_stages *stages, struct gb_
     case GB_DIE_SEQUENCE_FAILED:
         return GB_STEP_STOPPED;
     }
+    char why[ESCAPE_TEXT];
+    if (find_escape(bed, why, sizeof why)) {
+        return halve_time_step(stages, bed, why, text, size, err);
+    }
     if (stages->now.stage == GB_DIE_STAGES_PRESS) {
         return GB_STEP_POINT;
     }
     return save_good(stages, bed, err) ? GB_STEP_MORE : GB_STEP_STOPPED;
 }
 
+/* The cycle of the punch: a point where one is due. */
+static enum gb_step_outcome check_cycle(struct gb_die_stages *stages, struct gb_bed *bed,
+                                        char *text, size_t size, struct gb_error *err)
+{
+    struct gb_die_progress *now = &stages->now;
+    char why[ESCAPE_TEXT];
+    gb_punch_follow(&now->punch, &now->leapfrog, bed, gb_die_cycle_wall(stages, bed));
+    if (!gb_die_cycle_due(stages, bed)) {
+        return GB_STEP_MORE;
+    }
+    return find_escape(bed, why, sizeof why)
+               ? halve_time_step(stages, bed, why, text, size, err)
+               : GB_STEP_POINT;
+}
+
 static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_bed *bed,
                                       char *text, size_t size, struct gb_error *err)
 {
     struct gb_die_progress *now = &stages->now;
-    const int64_t rebuilds = bed->rebuilds;
+    char why[sizeof err->text];
     if (!gb_leapfrog_step(&now->leapfrog, bed, err)) {
-        char why[sizeof err->text];
         snprintf(why, sizeof why, "%s", err->text);
         return err->code == GB_ERR_GUARD
                    ? halve_time_step(stages, bed, why, text, size, err)
@@ -177,23 +213,15 @@ static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_be
     now->stage_time += now->leapfrog.step;
     now->steps++;
     now->since_point++;
-    if (now->steps % GB_ESCAPE_CHECK_STEPS == 0 || bed->rebuilds != rebuilds) {
-        const int64_t lost = gb_bed_escaped(bed);
-        if (lost >= 0) {
-            char why[160];
-            write_escape(bed, lost, why, sizeof why);
-            return halve_time_step(stages, bed, why, text, size, err);
-        }
+    if (now->steps % GB_ESCAPE_CHECK_STEPS == 0 && find_escape(bed, why, sizeof why)) {
+        return halve_time_step(stages, bed, why, text, size, err);
     }
     const enum gb_step_outcome punch = check_punch(stages, bed, text, size, err);
     if (punch != GB_STEP_MORE || text[0] != '\0') {
         return punch;
     }
-    if (gb_die_cycle_contains(now->stage)) {
-        gb_punch_follow(&now->punch, &now->leapfrog, bed, gb_die_cycle_wall(stages, bed));
-        return gb_die_cycle_due(stages, bed) ? GB_STEP_POINT : GB_STEP_MORE;
-    }
-    return check_stage(stages, bed, text, size, err);
+    return gb_die_cycle_contains(now->stage) ? check_cycle(stages, bed, text, size, err)
+                                             : check_stage(stages, bed, text, size, err);
 }
 
 /* A recorded point is a state to go back to.  The next stage begins here and not at the
