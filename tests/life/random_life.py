@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Random life of runs: random scenes, random commands and disturbances, with what must hold.
 
-Usage: random_life.py [--seed N] [--seconds S] [--cases N] [--keep DIR]
+Usage: random_life.py [--seed N] [--seconds S] [--cases N] [--keep DIR] [--extreme SHARE]
            [--shrink SECONDS] [--enough STEPS] [--leap-clock FILE.so] --same-state PROGRAM
            GREENBODY PRESET_FOLDER
        random_life.py --replay CASE.json ... GREENBODY PRESET_FOLDER
 
 Each case follows from its seed.  DIR/seeds.log has the seeds done, so that the same command goes
 on with the next one; a case that fails is made smaller and kept in DIR/failed-SEED: case.json,
-why.txt, replay.sh, and the run directories.  Exit status: 0 nothing found, 1 a case failed, 2
+why.txt, replay.sh, and the run directories.  SHARE of the scenes have a value at the edge of a key
+(0.15; 1 finds the faults there soonest).  Exit status: 0 nothing found, 1 a case failed, 2
 usage.
 """
 import argparse
@@ -30,9 +31,9 @@ import scenes  # noqa: E402  # pylint: disable=wrong-import-position
 from shrink import shrink  # noqa: E402  # pylint: disable=wrong-import-position
 
 
-def random_case(seed):
+def random_case(seed, extreme):
     rng = random.Random(seed)
-    preset, keys = scenes.random_scene(rng)
+    preset, keys = scenes.random_scene(rng, extreme)
     return {'seed': seed, 'preset': preset, 'keys': keys,
             'steps': random_steps(rng, scenes.random_edit, scenes.random_change)}
 
@@ -93,7 +94,7 @@ def campaign(tools, options, directory):
     while time.monotonic() < end and sum(counts.values()) < options.cases:
         if seed not in done:
             start = time.monotonic()
-            case = random_case(seed)
+            case = random_case(seed, options.extreme)
             how, broken = live(tools, os.path.join(tools.scratch, 'case'), case)
             kind = how.split(':')[0]
             counts[kind] = counts.get(kind, 0) + 1
@@ -130,6 +131,7 @@ def main():
     parser.add_argument('--seconds', type=float, default=3600)
     parser.add_argument('--cases', type=int, default=10 ** 9)
     parser.add_argument('--keep')
+    parser.add_argument('--extreme', type=float, default=0.15)
     parser.add_argument('--shrink', type=float, default=120, metavar='SECONDS')
     parser.add_argument('--enough', type=int, default=0, metavar='STEPS')
     parser.add_argument('--replay')

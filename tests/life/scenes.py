@@ -161,13 +161,16 @@ def _output(rng, keys):
             keys['output.export'] = rng.choice(['extxyz', 'lammps-dump', 'csv'])
 
 
-def random_scene(rng):
-    """A preset's name, and keys in the order in which they are given."""
+def random_scene(rng, extreme):
+    """A preset's name, and keys in the order in which they are given.
+
+    extreme: the share of scenes that have a value at the edge of a key.
+    """
     keys = {'scene.title': f'life {rng.randrange(10 ** 6)}',
             'structure.seed': str(rng.choice([1, rng.randrange(2 ** 32), rng.randrange(2 ** 64)]))}
     preset = rng.choice([_quasistatic, _quasistatic, _dynamic, _die])(rng, keys)
     _output(rng, keys)
-    if rng.random() < 0.15:
+    if rng.random() < extreme:
         key, value = rng.choice(EXTREMES)
         keys[key] = value
     return preset, keys
