@@ -184,8 +184,8 @@ die_ends 'a punch too light for the time step' 0 'thrown off the punch' die.punc
 # A guard that takes a shorter step and goes on is an event, not an error of the run.
 "$greenbody" run p2-v4 structure.seed=1 particles.count=64 structure.density=0.5 \
     'loading.relax=0.005 ns' 'loading.hold=0 ns' 'loading.record_time=0.001 ns' \
-    'loading.until=density = 0.52' 'loading.record=1 %' 'material.epsilon=0 kB' \
-    contact.mu=0.287 contact.alpha=0.481 --yes --out out >stdout 2>stderr
+    'loading.until=density = 0.6' 'loading.record=4 %' 'loading.rate=1 1/ns' \
+    'numerics.time_step=10 T' 'material.epsilon=0 kB' --yes --out out >stdout 2>stderr
 is 'a guard that goes on: status 0' [ $? -eq 0 ]
 is 'a guard that goes on: an event' grep -q 'overlap by .*; time step halved' out/events.log
 is 'a guard that goes on: no error' grep -q '"error" : ""' out/status.json

@@ -88,7 +88,7 @@ shows "and correlation" 'correlation of contact.mu and contact.alpha: '
 fit=$(dirname "$(find "$here/state" -name calibration.csv)")
 is "the same text is a file" grep -q '^contact.mu = .*95 %' "$fit/calibration.txt"
 keys Enter
-shows "Enter uses the values" 's: calibration used: contact'
+told "Enter uses the values" 's: calibration used: contact'
 calibrated=$(sed -n 's/^mu = \(0\.[0-9]\{3\}\).*/\1/p' "$fit/calibrated.ini")
 go_to mu
 is "which are those of calibrated.ini" until_true value_is mu "$calibrated"
