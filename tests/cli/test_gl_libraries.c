@@ -121,6 +121,22 @@ static void test_pictures(void)
     }
 }
 
+/* What a renderer and its compiler bring takes longer to load than all else. */
+static void test_start(void)
+{
+    char *words[] = {(char *)"ldd", (char *)program, NULL};
+    char *out = NULL;
+    GError *error = NULL;
+    g_spawn_sync(NULL, words, NULL, G_SPAWN_SEARCH_PATH, NULL, NULL, &out, NULL, NULL,
+                 &error);
+    g_assert_no_error(error);
+    g_assert_nonnull(strstr(out, "libc."));
+    g_assert_null(strstr(out, "OSMesa"));
+    g_assert_null(strstr(out, "EGL"));
+    g_assert_null(strstr(out, "LLVM"));
+    g_free(out);
+}
+
 static void test_refused(void)
 {
     g_setenv("GB_GL", "glx", TRUE);
@@ -160,6 +176,7 @@ int main(int argc, char **argv)
         program_finish(&result);
         g_free(line);
     }
+    g_test_add_func("/gl/start", test_start);
     g_test_add_func("/gl/refused", test_refused);
     g_test_add_func("/gl/pictures", test_pictures);
     const int status = g_test_run();

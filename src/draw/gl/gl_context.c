@@ -38,7 +38,8 @@ static const struct {
 static bool find_functions(struct gb_gl_context *context, struct gb_error *err)
 {
     for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
-        void (*function)(void) = context->library->function(functions[i].name);
+        void (*function)(void) =
+            context->library->function(context->own, functions[i].name);
         if (function == NULL) {
             return gb_error_set(err, GB_ERR_MACHINE, "%s has no %s",
                                 context->library->name, functions[i].name);

@@ -15,7 +15,7 @@ struct gb_gl_library {
     const char *name;
     void *(*create)(struct gb_error *err); /* NULL: error set */
     bool (*use)(void *context, struct gb_error *err);
-    void (*(*function)(const char *name))(void); /* "glClear"; NULL: there is none */
+    void (*(*function)(const void *context, const char *name))(void); /* NULL: none */
     void (*destroy)(void *context);
 };
 

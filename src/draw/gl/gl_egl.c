@@ -1,13 +1,12 @@
-/* Contexts of EGL without a surface.  libEGL is loaded when it is asked for: a program that
- * has OSMesa starts without it. */
+/* Contexts of EGL without a surface. */
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <dlfcn.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "draw/gl/gl_context.h"
+#include "draw/gl/gl_symbols.h"
 
 enum { DEVICES = 16 };
 
@@ -30,38 +29,20 @@ struct own {
     EGLContext context;
 };
 
-static void *library(void)
-{
-    return dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-}
-
 static bool load(struct egl *egl, struct gb_error *err)
 {
-    const struct {
-        const char *name;
-        void *at;
-    } wanted[] = {{"eglGetProcAddress", &egl->function},
-                  {"eglQueryString", &egl->text},
-                  {"eglGetPlatformDisplay", &egl->display},
-                  {"eglInitialize", &egl->initialize},
-                  {"eglBindAPI", &egl->bind},
-                  {"eglCreateContext", &egl->create},
-                  {"eglMakeCurrent", &egl->use},
-                  {"eglDestroyContext", &egl->destroy},
-                  {"eglGetError", &egl->error}};
-    void *handle = library();
-    if (handle == NULL) {
-        return gb_error_set(err, GB_ERR_MACHINE, "EGL: no libEGL.so.1 here");
-    }
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        void *found = dlsym(handle, wanted[i].name);
-        if (found == NULL) {
-            return gb_error_set(err, GB_ERR_MACHINE, "EGL: no %s (EGL 1.5)",
-                                wanted[i].name);
-        }
-        memcpy(wanted[i].at, &found, sizeof found);
-    }
-    return true;
+    static const char *const files[] = {"libEGL.so.1", NULL};
+    const struct gb_gl_symbol symbols[] = {{"eglGetProcAddress", &egl->function},
+                                           {"eglQueryString", &egl->text},
+                                           {"eglGetPlatformDisplay", &egl->display},
+                                           {"eglInitialize", &egl->initialize},
+                                           {"eglBindAPI", &egl->bind},
+                                           {"eglCreateContext", &egl->create},
+                                           {"eglMakeCurrent", &egl->use},
+                                           {"eglDestroyContext", &egl->destroy},
+                                           {"eglGetError", &egl->error},
+                                           {NULL, NULL}};
+    return gb_gl_symbols_load(files, symbols, "EGL 1.5", err);
 }
 
 /* The software renderer among the devices: the same pixels with any graphics card. */
@@ -151,12 +132,10 @@ static bool use(void *context, struct gb_error *err)
                         (unsigned)own->egl.error());
 }
 
-static void (*function(const char *name))(void)
+static void (*function(const void *context, const char *name))(void)
 {
-    PFNEGLGETPROCADDRESSPROC find = NULL;
-    void *found = dlsym(library(), "eglGetProcAddress");
-    memcpy(&find, &found, sizeof find);
-    return find(name);
+    const struct own *own = context;
+    return own->egl.function(name);
 }
 
 const struct gb_gl_library gb_gl_egl_library = {"egl", create, use, function, destroy};

@@ -4,19 +4,42 @@
 #include <GL/osmesa.h>
 
 #include "base/alloc.h"
+#include "draw/gl/gl_symbols.h"
 
 enum { CANVAS = 16 }; /* side of OSMesa's own buffer, which is not drawn to */
 
+struct osmesa {
+    OSMESAproc (*function)(const char *name);
+    OSMesaContext (*create)(const int *attributes, OSMesaContext shared);
+    GLboolean (*use)(OSMesaContext context, void *buffer, GLenum type, GLsizei width,
+                     GLsizei height);
+    void (*destroy)(OSMesaContext context);
+};
+
 struct own {
+    struct osmesa osmesa;
     OSMesaContext context;
     uint8_t canvas[CANVAS * CANVAS * 4];
 };
+
+static bool load(struct osmesa *osmesa, struct gb_error *err)
+{
+    static const char *const files[] = {"libOSMesa.so.8", GB_OSMESA_DIR "/libOSMesa.so.8",
+                                        NULL};
+    const struct gb_gl_symbol symbols[] = {
+        {"OSMesaGetProcAddress", &osmesa->function},
+        {"OSMesaCreateContextAttribs", &osmesa->create},
+        {"OSMesaMakeCurrent", &osmesa->use},
+        {"OSMesaDestroyContext", &osmesa->destroy},
+        {NULL, NULL}};
+    return gb_gl_symbols_load(files, symbols, "OSMesa 11.2", err);
+}
 
 static void destroy(void *context)
 {
     struct own *own = context;
     if (own->context != NULL) {
-        OSMesaDestroyContext(own->context);
+        own->osmesa.destroy(own->context);
     }
     gb_alloc_free(own);
 }
@@ -36,7 +59,11 @@ static void *create(struct gb_error *err)
     if (own == NULL) {
         return NULL;
     }
-    own->context = OSMesaCreateContextAttribs(wanted, NULL);
+    if (!load(&own->osmesa, err)) {
+        destroy(own);
+        return NULL;
+    }
+    own->context = own->osmesa.create(wanted, NULL);
     if (own->context == NULL) {
         gb_error_set(err, GB_ERR_MACHINE, "OSMesa has no OpenGL 3.3");
         destroy(own);
@@ -48,10 +75,16 @@ static void *create(struct gb_error *err)
 static bool use(void *context, struct gb_error *err)
 {
     struct own *own = context;
-    return OSMesaMakeCurrent(own->context, own->canvas, GL_UNSIGNED_BYTE, CANVAS,
-                             CANVAS) != 0 ||
+    return own->osmesa.use(own->context, own->canvas, GL_UNSIGNED_BYTE, CANVAS, CANVAS) !=
+               0 ||
            gb_error_set(err, GB_ERR_MACHINE, "OSMesa cannot use its context");
 }
 
-const struct gb_gl_library gb_gl_osmesa_library = {"osmesa", create, use,
-                                                   OSMesaGetProcAddress, destroy};
+static void (*function(const void *context, const char *name))(void)
+{
+    const struct own *own = context;
+    return own->osmesa.function(name);
+}
+
+const struct gb_gl_library gb_gl_osmesa_library = {"osmesa", create, use, function,
+                                                   destroy};
