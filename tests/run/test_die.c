@@ -184,10 +184,16 @@ static int64_t steps_to_point(const struct gb_params *params)
     struct gb_error err = {0};
     struct gb_experiment *experiment = NULL;
     g_assert_true(gb_experiment_create(&experiment, params, NULL, NULL, &err));
-    int64_t steps = 1, points = 0;
-    while (gb_experiment_advance(experiment, 1, &err) != GB_STEP_POINT || points++ < 2 ||
-           steps % GB_ESCAPE_CHECK_STEPS == 0) {
-        steps++;
+    int64_t steps = 0;
+    int points = 0;
+    while (points < 3 || steps % GB_ESCAPE_CHECK_STEPS == 0) {
+        enum gb_step_outcome outcome = GB_STEP_MORE;
+        while (outcome == GB_STEP_MORE) {
+            outcome = gb_experiment_advance(experiment, 1, &err);
+            steps++;
+        }
+        g_assert_cmpint(outcome, ==, GB_STEP_POINT); /* not its end */
+        points++;
     }
     gb_experiment_destroy(experiment);
     return steps;
