@@ -31,13 +31,23 @@ cp "$prefix/bin/greenbody" "$program"
 strip "$program"
 
 # --- loader and libraries ---------------------------------------------------------------
-ldd "$program" >"$scratch/libraries" || fail "ldd: $program"
-if grep -q 'not found' "$scratch/libraries"; then
-    fail "$(grep 'not found' "$scratch/libraries")"
+cp_libraries() {
+    ldd "$1" >"$scratch/libraries" || fail "ldd: $1"
+    if grep -q 'not found' "$scratch/libraries"; then
+        fail "$(grep 'not found' "$scratch/libraries")"
+    fi
+    sed -n 's/.*=> \(\/[^ ]*\) (.*/\1/p' "$scratch/libraries" | while read -r library; do
+        cp -L "$library" "$root/lib/"
+    done
+}
+renderer=libOSMesa.so.8 # the program loads it when a picture is made
+if grep -q "$renderer" "$program"; then
+    found=$(ldconfig -p | sed -n "s/.*$renderer .*=> //p" | head -n 1)
+    [ -n "$found" ] || fail "no $renderer"
+    cp -L "$found" "$root/lib/$renderer"
+    cp_libraries "$found"
 fi
-sed -n 's/.*=> \(\/[^ ]*\) (.*/\1/p' "$scratch/libraries" | while read -r library; do
-    cp -L "$library" "$root/lib/"
-done
+cp_libraries "$program"
 loader=$(sed -n 's/^[[:space:]]*\(\/[^ ]*ld-linux[^ ]*\) (.*/\1/p' "$scratch/libraries")
 cp -L "$loader" "$root/libexec/greenbody"
 ${CC:-cc} -static -O2 -o "$root/bin/greenbody" "$source/packaging/launcher.c"

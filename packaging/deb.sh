@@ -34,6 +34,10 @@ printf 'Source: greenbody\n\nPackage: greenbody\nArchitecture: any\n' >"$scratch
 depends=$(cd "$scratch" && find root/usr/bin root/usr/lib -type f \
     \( -name greenbody -o -name 'libgreenbody.so.*' \) -exec dpkg-shlibdeps \
     --ignore-missing-info -lroot/usr/lib -O {} + 2>/dev/null | sed -n 's/^shlibs:Depends=//p')
+renderer= # which the program loads when a picture is made
+if "$root/usr/bin/greenbody" --version | grep -q pictures; then
+    renderer=', libosmesa6 | libegl1'
+fi
 cat >"$root/usr/share/doc/greenbody/copyright" <<'END'
 Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Files: *
@@ -46,7 +50,7 @@ Version: $version
 Architecture: $architecture
 Maintainer: greenbody <greenbody@localhost>
 Installed-Size: $(du -sk "$root/usr" | cut -f1)
-Depends: $depends, fonts-dejavu-core
+Depends: $depends$renderer, fonts-dejavu-core
 Recommends: tmux, ffmpeg
 Suggests: python3-numpy, openmpi-bin
 Section: science
