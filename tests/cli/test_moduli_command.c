@@ -128,6 +128,26 @@ static void test_replicas(void)
     }
 }
 
+/* Cells with particles that hardly anything holds: full Newton steps press them into others,
+ * beyond the guard of an evaluation, and are halved. */
+static void test_overshoot(void)
+{
+    static const char *const cells[] = {"particles.count=100 structure.seed=24",
+                                        "particles.count=200 structure.seed=42",
+                                        "particles.count=200 structure.seed=54"};
+    for (size_t k = 0; k < G_N_ELEMENTS(cells); k++) {
+        char *words = g_strconcat(
+            "moduli default 'particles.diameter=10.4 nm' contact.alpha=0.37 "
+            "contact.mu=0.13 'contact.bridge_length=1 d' contact.shear_strength=auto "
+            "loading.until=density=0.42 loading.unload_from= --no-range --csv --quiet ",
+            cells[k], NULL);
+        char **lines = table_of(NULL, words, 0);
+        g_assert_cmpfloat(value_of(lines, 0, "C33_GPa"), >, 0.0);
+        g_strfreev(lines);
+        g_free(words);
+    }
+}
+
 /* A point beyond the end of the run: what was probed is printed, status 1. */
 static void test_missed(void)
 {
@@ -304,6 +324,7 @@ int main(int argc, char **argv)
     g_test_add_func("/moduli-command/fcc", test_fcc);
     g_test_add_func("/moduli-command/hexagonal", test_hexagonal);
     g_test_add_func("/moduli-command/replicas", test_replicas);
+    g_test_add_func("/moduli-command/overshoot", test_overshoot);
     g_test_add_func("/moduli-command/missed", test_missed);
     g_test_add_func("/moduli-command/directory", test_directory);
     g_test_add_func("/moduli-command/out", test_out);

@@ -67,6 +67,21 @@ static bool apply(struct gb_probe *probe, const double strain[3][3], const doubl
     return gb_world_evaluate(probe->world, err);
 }
 
+/* Imbalance after a strain and the motion so far; infinite where that overlaps particles
+ * beyond what an evaluation accepts. */
+static bool try_motion(struct gb_probe *probe, const double strain[3][3], double *left,
+                       struct gb_error *err)
+{
+    struct gb_error refused = {0};
+    if (apply(probe, strain, probe->motion, &refused)) {
+        *left = imbalance(probe->world);
+        return true;
+    }
+    *left = INFINITY;
+    return refused.code == GB_ERR_GUARD ||
+           gb_error_set(err, refused.code, "%s", refused.text);
+}
+
 /* Forces and torques of the last evaluation into one vector. */
 static void read_forces(struct gb_probe *probe)
 {
@@ -124,10 +139,10 @@ static bool improve(struct gb_probe *probe, const double strain[3][3], double *l
                                           ITERATIONS_MAX, probe->step);
     move(probe, factor);
     for (int halving = 0; halving <= HALVINGS_MAX; halving++) {
-        if (!apply(probe, strain, probe->motion, err)) {
+        double now;
+        if (!try_motion(probe, strain, &now, err)) {
             return false;
         }
-        const double now = imbalance(probe->world);
         *fell = now < (1.0 - GB_PROBE_FALL * factor) * *left ||
                 (*rises > 0 && now < GB_PROBE_RISE * *left);
         *rises -= now > *left && *fell;
