@@ -15,6 +15,10 @@
 static const double ray_longest_3d = 60.0;
 static const double ray_longest_2d = 40.0;
 
+/* What is shorter by this share is so for certain, whatever the rounding on a ray of that
+ * length. */
+static const double clear = 2.0 * GB_ROLL_TOLERANCE;
+
 /* The next particle to be placed. */
 static struct gb_roll next_one(const struct gb_chain_ray *growth)
 {
@@ -85,6 +89,9 @@ static int collect_candidates(struct gb_chain_ray *growth, const struct gb_roll 
         struct gb_chain_ray_candidate *candidate = &growth->candidates[count++];
         candidate->j = hit.index;
         candidate->along = hit.along + sqrt(touch * touch - across);
+        candidate->touch = touch;
+        candidate->foot = hit.along;
+        candidate->across = across;
         for (int k = 0; k < 3; k++) {
             candidate->offset[k] = candidate->along * direction[k] - hit.r[k];
         }
@@ -104,7 +111,7 @@ static void position_of(const struct gb_chain_ray *growth,
     }
 }
 
-/* Neighbours within r_meso; stops counting at enough. */
+/* Neighbours within r_meso, 1 at least; stops counting at enough. */
 static int count_neighbours(const struct gb_chain_ray *growth, const double position[3],
                             int enough)
 {
@@ -115,30 +122,75 @@ static int count_neighbours(const struct gb_chain_ray *growth, const double posi
     while (count < enough && gb_grid_ball_next(&ball, &hit)) {
         count++;
     }
-    return count;
+    return count > 1 ? count : 1;
+}
+
+/* Neighbours of candidate i among the particles that the ray passes, 1 at least; INT32_MAX
+ * where one of them is overlapped for certain.  The candidates are sorted. */
+static int least_neighbours(const struct gb_chain_ray *growth, int count, int i,
+                            double longest_touch)
+{
+    const struct gb_chain_ray_candidate *candidate = growth->candidates;
+    const double at = candidate[i].along;
+    const double meso = (1.0 - clear) * growth->grow->r_meso;
+    const double reach = fmax(meso, longest_touch);
+    int first = i, neighbours = 0;
+    while (first > 0 && candidate[first - 1].along <= at + reach + longest_touch) {
+        first--;
+    }
+    for (int k = first; k < count && candidate[k].along >= at - reach; k++) {
+        const double apart = at - candidate[k].foot;
+        const double square = apart * apart + candidate[k].across;
+        const double touch = (1.0 - clear) * candidate[k].touch;
+        if (square < touch * touch) {
+            return INT32_MAX;
+        }
+        neighbours += square <= meso * meso;
+    }
+    return neighbours > 1 ? neighbours : 1;
+}
+
+/* The candidate with the fewest known neighbours, the farthest of several. */
+static int most_promising(const struct gb_chain_ray *growth, int count)
+{
+    int found = 0;
+    for (int i = 1; i < count; i++) {
+        if (growth->candidates[i].least < growth->candidates[found].least) {
+            found = i;
+        }
+    }
+    return found;
 }
 
 /* The free position with the fewest neighbours, the farthest of several; NULL when the
- * ray has none.  The candidates are sorted, the farthest first, so a later one is better
- * only with fewer neighbours; one neighbour (the particle touched) is the minimum. */
+ * ray has none.  The neighbours that are known of give the order in which the positions are
+ * tried, and its end. */
 static const struct gb_chain_ray_candidate *
 choose_candidate(const struct gb_chain_ray *growth, const struct gb_roll *roll, int count)
 {
-    const struct gb_chain_ray_candidate *best = NULL;
-    int fewest = INT32_MAX;
-    for (int i = 0; i < count && fewest > 1; i++) {
+    struct gb_chain_ray_candidate *const candidate = growth->candidates;
+    int best = count, fewest = INT32_MAX - 1;
+    for (int i = 0; i < count; i++) {
+        candidate[i].least = least_neighbours(growth, count, i, roll->r_eq);
+    }
+    while (count > 0) {
+        const int i = most_promising(growth, count);
         double position[3];
-        position_of(growth, &growth->candidates[i], position);
+        if (candidate[i].least > fewest || (candidate[i].least == fewest && i > best)) {
+            break;
+        }
+        candidate[i].least = INT32_MAX;
+        position_of(growth, &candidate[i], position);
         if (gb_roll_overlaps(roll, position)) {
             continue;
         }
-        const int neighbours = count_neighbours(growth, position, fewest);
-        if (neighbours < fewest) {
+        const int neighbours = count_neighbours(growth, position, fewest + 1);
+        if (neighbours < fewest || (neighbours == fewest && i < best)) {
             fewest = neighbours;
-            best = &growth->candidates[i];
+            best = i;
         }
     }
-    return best;
+    return best < count ? &candidate[best] : NULL;
 }
 
 /* True for a particle that keeps one contact. */

@@ -22,6 +22,10 @@ struct gb_chain_ray_candidate {
     int64_t j;
     double along;     /* of the position, from the origin of the ray */
     double offset[3]; /* from j to the position; as long as they touch */
+    double touch;     /* that distance */
+    double foot;      /* of j on the ray, from its origin */
+    double across;    /* square of the distance of j from the ray */
+    int least;        /* neighbours that are known of; INT32_MAX: overlaps, or tried */
 };
 
 /* State of a growing structure. */
