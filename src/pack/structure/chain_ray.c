@@ -125,8 +125,8 @@ static int count_neighbours(const struct gb_chain_ray *growth, const double posi
     return count > 1 ? count : 1;
 }
 
-/* Neighbours of candidate i among the particles that the ray passes, 1 at least; INT32_MAX
- * where one of them is overlapped for certain.  The candidates are sorted. */
+/* Neighbours of candidate i among the particles that the ray passes; INT32_MAX where one
+ * of them is overlapped for certain.  The candidates are sorted. */
 static int least_neighbours(const struct gb_chain_ray *growth, int count, int i,
                             double longest_touch)
 {
@@ -147,7 +147,7 @@ static int least_neighbours(const struct gb_chain_ray *growth, int count, int i,
         }
         neighbours += square <= meso * meso;
     }
-    return neighbours > 1 ? neighbours : 1;
+    return neighbours;
 }
 
 /* The candidate with the fewest known neighbours, the farthest of several. */
