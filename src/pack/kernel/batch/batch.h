@@ -13,7 +13,7 @@
 enum { GB_BATCH = 128, GB_LANES = 8 };
 
 /* Inputs and outputs of the laws for a batch of pairs, in double or single precision. */
-#define GB_BATCH_OF(name, real)                                                            \
+#define GB_BATCH_OF(name, real, bits)                                                      \
     struct name {                                                                          \
         int n;                                                                             \
         real cutoff2; /* squared reach of the attraction, d^2 */                           \
@@ -32,17 +32,21 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         real absorbed[GB_BATCH]; /* work absorbed in this step; viscous scenes */          \
         /* from the first half of a law to the second */                                   \
         real unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH];                      \
+        bits lasts[GB_BATCH]; /* all bits: in contact before and now */                    \
+        /* squared springs of shear and rolling, before and after their turns */           \
+        real square[4][GB_BATCH];                                                          \
         real rate[8][GB_BATCH]; /* increments of the springs; 7: of h */                   \
-        /* f_n and its slope; from the caps to the forces */                               \
-        real along[GB_BATCH], slope[GB_BATCH];                                             \
+        /* parts of the normal force; the force, its slope, and it without adhesion */     \
+        real root[GB_BATCH], tail_at[GB_BATCH], rod_slope[GB_BATCH], pull[GB_BATCH];       \
+        real along[GB_BATCH], slope[GB_BATCH], elastic[GB_BATCH];                          \
         /* of shear, pivoting and rolling: what the cap leaves of a spring; 1: below it */ \
         real stiffness[3][GB_BATCH], kept[3][GB_BATCH], below[3][GB_BATCH];                \
         /* unequal sizes: 1/d_i, 1/d_j, their mean D, 1/D and d' = d_i d_j/D */            \
         real inverse[2][GB_BATCH], mean[GB_BATCH], inverse_mean[GB_BATCH],                 \
             reduced[GB_BATCH];                                                             \
     };
-GB_BATCH_OF(gb_batch, double)
-GB_BATCH_OF(gb_batch_f32, float)
+GB_BATCH_OF(gb_batch, double, uint64_t)
+GB_BATCH_OF(gb_batch_f32, float, uint32_t)
 #undef GB_BATCH_OF
 
 /* Advances contacts [slot, slot + batch->n) and fills the outputs.

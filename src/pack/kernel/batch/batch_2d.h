@@ -94,7 +94,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
         }
         deepest[k] = state;
         const bool held = t.bridges & (state > 0.0);
-        const struct normal f = normal_force(t, &law, state, h, r);
+        const struct normal f = normal_force(t, &law, equal_size(), state, h, r);
         double fn = f.total, tangent = 0.0, opposed = 0.0, slides = 0.0, twice = 0.0;
         if (t.viscous) {
             const double before2 = bx * bx + bz * bz;

@@ -17,15 +17,16 @@
 #define PLANE(p)  ((real *)c->plane[p] + slot)
 
 typedef float real;
+typedef uint32_t real_bits;
 
 /* As in batch_f64.h. */
 INLINE real root_estimate(real x)
 {
-    uint32_t bits;
+    real_bits of_x;
     float y;
-    memcpy(&bits, &x, sizeof bits);
-    bits = UINT32_C(0x5f3759df) - (bits >> 1);
-    memcpy(&y, &bits, sizeof y);
+    memcpy(&of_x, &x, sizeof of_x);
+    of_x = UINT32_C(0x5f3759df) - (of_x >> 1);
+    memcpy(&y, &of_x, sizeof y);
     return y;
 }
 

@@ -15,17 +15,18 @@
 #define PLANE(p)  ((real *)c->plane[p] + slot)
 
 typedef double real;
+typedef uint64_t real_bits;
 
 /* Estimate of 1/sqrt(x) from the bits, within 3.5 %, and a step of Newton's iteration.
  * Multiplications and integer shifts are fast in every vector width; root and division
  * share one slow unit. */
 INLINE real root_estimate(real x)
 {
-    uint64_t bits;
+    real_bits of_x;
     double y;
-    memcpy(&bits, &x, sizeof bits);
-    bits = UINT64_C(0x5fe6eb50c7b537a9) - (bits >> 1);
-    memcpy(&y, &bits, sizeof y);
+    memcpy(&of_x, &x, sizeof of_x);
+    of_x = UINT64_C(0x5fe6eb50c7b537a9) - (of_x >> 1);
+    memcpy(&y, &of_x, sizeof y);
     return y;
 }
 

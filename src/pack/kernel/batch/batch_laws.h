@@ -117,6 +117,29 @@ INLINE real where(bool condition, real x)
     return condition ? x : 0;
 }
 
+/* All bits where the condition holds, else none; `where` and ?: for such masks.  Numbers
+ * behind a condition the compiler would read from memory under it, which not every
+ * processor can. */
+INLINE real_bits bit_mask(bool condition)
+{
+    return condition ? ~(real_bits)0 : 0;
+}
+
+INLINE real selected(real_bits condition, real x, real otherwise)
+{
+    real_bits of_x, of_other;
+    memcpy(&of_x, &x, sizeof of_x);
+    memcpy(&of_other, &otherwise, sizeof of_other);
+    of_x = (of_x & condition) | (of_other & ~condition);
+    memcpy(&x, &of_x, sizeof x);
+    return x;
+}
+
+INLINE real masked(real_bits condition, real x)
+{
+    return selected(condition, x, 0);
+}
+
 /* f_n along the normal: elastic line or rod law minus adhesion, or the pull across a gap.
  */
 struct normal {
@@ -145,11 +168,18 @@ INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
     };
 }
 
-/* (3) of unequal sizes; law/law_unequal.h.  The sum that its denominator is and the factor
- * before it: pull = factor / sum. */
+/* (3): the sum that its denominator is and the factor before it: pull = factor / sum. */
 struct pull {
     real factor, sum;
 };
+
+INLINE struct pull equal_pull(const struct normal_law *law, real r)
+{
+    const real s = larger(r, 1) + law->shift, q = s * s - 1;
+    return (struct pull){law->strength, s * s * s * q * q};
+}
+
+/* law/law_unequal.h */
 
 INLINE struct pull unequal_pull(const struct normal_law *law, struct pair_size size,
                                 real h)
@@ -164,57 +194,68 @@ INLINE struct pull unequal_pull(const struct normal_law *law, struct pair_size s
                          near * near * (wide * wide)};
 }
 
-/* normal_force of unequal sizes. */
-INLINE struct normal unequal_force(struct terms t, const struct normal_law *law,
-                                   struct pair_size size, real deepest, real h)
+/* What a normal force needs of roots and divisions. */
+struct normal_parts {
+    real root;      /* of the overlap, as in normal */
+    real tail_at;   /* where log_tail is taken */
+    real rod_slope; /* slope of the rod's force */
+    real pull;      /* attraction */
+};
+
+/* Of equal sizes r counts, of unequal ones size and h. */
+INLINE struct normal_parts normal_parts(struct terms t, const struct normal_law *law,
+                                        struct pair_size size, real deepest, real h,
+                                        real r)
 {
-    const real overlap = larger(h, 0);
-    const real from = deepest > 0 ? deepest : overlap;
-    const real half_width = root(size.reduced * from), hertz = law->hertz * half_width;
+    const real overlap = larger(h, 0), from = !t.plain && deepest > 0 ? deepest : overlap;
+    const real half_width = root(t.sized ? size.reduced * from : from);
     if (t.plain) {
-        const real force = hertz * from;
-        return (struct normal){force, (real)1.5 * hertz, force, half_width, 0};
+        return (struct normal_parts){.root = half_width};
     }
-    const struct pull attraction = unequal_pull(law, size, h);
-    const real x = from * size.inverse_mean, near = 1 - x, wide = 2 - x,
-               gap = attraction.sum;
+    const real x = t.sized ? from * size.inverse_mean : from;
+    const real near = 1 - x, wide = 2 - x;
+    const struct pull attraction =
+        t.sized ? unequal_pull(law, size, h) : equal_pull(law, r);
+    const real gap = attraction.sum, rod = t.sized ? law->rod * size.reduced : law->rod;
+    /* one division for all */
     const real all = 1 / (near * wide * gap);
-    const real tail = log_tail(x, x * (near * gap) * all);
-    const real rod = law->rod * size.reduced;
-    const real slope = (real)1.5 * hertz + rod * (x * (wide * gap)) * all;
-    const real force = hertz * from + rod * size.mean * tail - slope * (from - overlap);
-    const real pull = attraction.factor * (near * wide * all);
-    /* s of a contact is that of two that touch: the pull is the adhesion */
-    const real apart = where(-h < law->gap, -pull);
-    return (struct normal){force, slope, deepest >= 0 ? force - pull : apart, half_width,
-                           pull};
+    return (struct normal_parts){half_width, x * (near * gap) * all,
+                                 rod * (x * (wide * gap)) * all,
+                                 attraction.factor * (near * wide * all)};
+}
+
+/* The force from its parts. */
+INLINE struct normal normal_of(struct terms t, const struct normal_law *law,
+                               struct normal_parts of, struct pair_size size,
+                               real deepest, real h, real r)
+{
+    const real overlap = larger(h, 0), hertz = law->hertz * of.root;
+    if (t.plain) { /* the sum of these laws: one of them has constants other than 0 */
+        const real force = hertz * overlap;
+        return (struct normal){force, (real)1.5 * hertz, force, of.root,
+                               t.sized ? 0 : law->adhesion};
+    }
+    const real from = deepest > 0 ? deepest : overlap;
+    const real x = t.sized ? from * size.inverse_mean : from;
+    const real rod = t.sized ? law->rod * size.reduced * size.mean : law->rod;
+    const real slope = (real)1.5 * hertz + of.rod_slope;
+    const real force =
+        hertz * from + rod * log_tail(x, of.tail_at) - slope * (from - overlap);
+    const real_bits near = bit_mask(t.sized ? -h < law->gap : r * r < law->cutoff2);
+    /* s of a contact of unequal sizes is that of two that touch: the pull is the adhesion */
+    const real adhesion = t.sized ? of.pull : law->adhesion;
+    const real apart = masked(near, -of.pull), touching = force - adhesion;
+    /* without a contact the overlap is 0, and so are force and slope */
+    return (struct normal){force, slope,
+                           selected(bit_mask(deepest >= 0), touching, apart), of.root,
+                           adhesion};
 }
 
 INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
-                                  real deepest, real h, real r)
+                                  struct pair_size size, real deepest, real h, real r)
 {
-    const real overlap = larger(h, 0);
-    if (t.plain) { /* the sum of these laws: one of them has constants other than 0 */
-        const real half_width = root(overlap), hertz = law->hertz * half_width;
-        const real force = hertz * overlap;
-        return (struct normal){force, (real)1.5 * hertz, force, half_width,
-                               law->adhesion};
-    }
-    const real from = deepest > 0 ? deepest : overlap;
-    /* one division for all: D = 1 / ((1 - h) (2 - h) s^3 q^2) */
-    const real s = larger(r, 1) + law->shift, q = s * s - 1;
-    const real near = 1 - from, wide = 2 - from, gap = s * s * s * q * q;
-    const real all = 1 / (near * wide * gap);
-    const real half_width = root(from), tail = log_tail(from, from * (near * gap) * all);
-    const real hertz = law->hertz * half_width;
-    const real slope = (real)1.5 * hertz + law->rod * (from * (wide * gap)) * all;
-    const real force = hertz * from + law->rod * tail - slope * (from - overlap);
-    const real pull = law->strength * (near * wide * all);
-    const real touching = force - law->adhesion;
-    const real apart = where(r * r < law->cutoff2, -pull);
-    /* without a contact the overlap is 0, and so are force and slope */
-    return (struct normal){force, slope, deepest >= 0 ? touching : apart, half_width,
-                           law->adhesion};
+    const struct normal_parts parts = normal_parts(t, law, size, deepest, h, r);
+    return normal_of(t, law, parts, size, deepest, h, r);
 }
 
 /* Radius of the springs from its square; mostly half the known root of the overlap. */
