@@ -9,16 +9,17 @@
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 
-/* Evaluations between two list builds to aim at; a build costs a few tens of
- * evaluations. */
-static const double list_lasts = 250.0;
-/* Skin over the smallest radius, at least and at most. */
-static const double skin_least = 0.01, skin_most = 1.0;
+/* Evaluations to aim at between two builds of the candidates, which cost a few tens of
+ * evaluations, and between two lists drawn from them, which cost less than one. */
+static const double candidates_last = 250.0, list_lasts = 12.0;
+/* Skins over the smallest radius, at least and at most. */
+static const double skin_least = 0.01, skin_most = 2.0, near_least = 0.002;
 
 static bool allocate(struct gb_bed *bed, struct gb_error *err)
 {
-    gb_bed_row **const rows[] = {&bed->position, &bed->velocity, &bed->spin,
-                                 &bed->force,    &bed->torque,   &bed->listed_position};
+    gb_bed_row **const rows[] = {
+        &bed->position, &bed->velocity,       &bed->spin,           &bed->force,
+        &bed->torque,   &bed->built_position, &bed->listed_position};
     struct gb_bed_list *const lists[] = {&bed->pairs, &bed->previous_pairs, &bed->walls,
                                          &bed->previous_walls};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
@@ -73,6 +74,7 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
         bed->smallest = fmin(bed->smallest, radius[i]);
     }
     bed->skin = 0.1 * bed->smallest;
+    bed->near_skin = 0.5 * bed->skin;
     gb_bed_set_law(bed, law);
     *out = bed;
     return true;
@@ -88,6 +90,7 @@ void gb_bed_destroy(struct gb_bed *bed)
     gb_alloc_free(bed->spin);
     gb_alloc_free(bed->force);
     gb_alloc_free(bed->torque);
+    gb_alloc_free(bed->built_position);
     gb_alloc_free(bed->listed_position);
     gb_alloc_free(bed->counts);
     gb_alloc_free(bed->mass);
@@ -124,39 +127,96 @@ void gb_bed_invalidate_lists(struct gb_bed *bed)
     bed->listed = false;
 }
 
-/* Adapts the skin to the speed of the motion.  No force depends on it: pairs that do not
- * touch add exact zeros in an order that is the same for any list. */
-static void adapt_skin(struct gb_bed *bed)
+/* A skin that would have lasted as long as it should.  No force depends on it: pairs that do
+ * not touch add exact zeros in an order that is the same for any list. */
+static double adapted(double skin, double lasted, double wanted)
 {
-    const double lasted = (double)(bed->evaluations - bed->listed_evaluation);
-    if (bed->listed && lasted > 0.0) {
-        const double wanted = fmin(fmax(list_lasts / lasted, 0.5), 2.0);
-        bed->skin = fmin(fmax(bed->skin * wanted, skin_least * bed->smallest),
-                         skin_most * bed->smallest);
+    return lasted > 0.0 ? skin * fmin(fmax(wanted / lasted, 0.5), 2.0) : skin;
+}
+
+static void adapt_skins(struct gb_bed *bed, bool candidates)
+{
+    const double built = (double)(bed->evaluations - bed->built_evaluation);
+    const double listed = (double)(bed->evaluations - bed->listed_evaluation);
+    if (bed->listed && candidates) {
+        bed->skin = fmin(
+            fmax(adapted(bed->skin, built, candidates_last), skin_least * bed->smallest),
+            skin_most * bed->smallest);
     }
+    if (bed->listed) {
+        bed->near_skin =
+            fmax(adapted(bed->near_skin, listed, list_lasts), near_least * bed->smallest);
+    }
+    bed->near_skin = fmin(bed->near_skin, 0.5 * bed->skin);
+}
+
+/* The farthest that a particle has moved since the candidates were built. */
+static double moved_since_build(const struct gb_bed *bed)
+{
+    double most2 = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        double moved2 = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double moved = bed->position[i][k] - bed->built_position[i][k];
+            moved2 += moved * moved;
+        }
+        most2 = fmax(most2, moved2);
+    }
+    return sqrt(most2);
+}
+
+/* True while no pair and no wall is missed, if nothing has moved farther than `moved` since
+ * the candidates were built. */
+static bool candidates_hold(const struct gb_bed *bed, double moved)
+{
+    const double punch = fabs(bed->die.punch_position - bed->punch_built_position);
+    const double top = fabs(bed->die.top - bed->top_built_position);
+    return bed->listed && 2.0 * moved < bed->skin &&
+           (!bed->die.punch || moved + punch < bed->skin) &&
+           (bed->die.bore != GB_DIE_BORE_OPEN || moved + top < bed->skin);
+}
+
+/* Lists were made of the present positions. */
+static void note_listed(struct gb_bed *bed, double built_moved)
+{
+    memcpy(bed->listed_position, bed->position,
+           (size_t)bed->count * sizeof *bed->position);
+    bed->listed_evaluation = bed->evaluations;
+    bed->built_moved = built_moved;
+}
+
+static bool rebuild(struct gb_bed *bed, struct gb_error *err)
+{
+    adapt_skins(bed, true);
+    if (!gb_bed_list_rebuild(bed, err)) {
+        return false;
+    }
+    memcpy(bed->built_position, bed->position,
+           (size_t)bed->count * sizeof *bed->position);
+    bed->punch_built_position = bed->die.punch_position;
+    bed->top_built_position = bed->die.top;
+    bed->built_evaluation = bed->evaluations;
+    bed->listed = true;
+    bed->rebuilds++;
+    note_listed(bed, 0.0);
+    return true;
 }
 
 static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *err)
 {
     const double moved = sqrt(moved2);
-    const double punch = fabs(bed->die.punch_position - bed->punch_listed_position);
-    const double top = fabs(bed->die.top - bed->top_listed_position);
-    if (bed->listed && 2.0 * moved < bed->skin &&
-        (!bed->die.punch || moved + punch < bed->skin) &&
-        (bed->die.bore != GB_DIE_BORE_OPEN || moved + top < bed->skin)) {
+    if (2.0 * moved < bed->near_skin && candidates_hold(bed, bed->built_moved + moved)) {
         return true;
     }
-    adapt_skin(bed);
-    if (!gb_bed_list_rebuild(bed, err)) {
+    const double built_moved = bed->listed ? moved_since_build(bed) : 0.0;
+    if (!candidates_hold(bed, built_moved + 0.5 * bed->near_skin)) {
+        return rebuild(bed, err);
+    }
+    adapt_skins(bed, false);
+    if (!gb_bed_list_draw(bed, err)) {
         return false;
     }
-    memcpy(bed->listed_position, bed->position,
-           (size_t)bed->count * sizeof *bed->position);
-    bed->punch_listed_position = bed->die.punch_position;
-    bed->top_listed_position = bed->die.top;
-    bed->listed_evaluation = bed->evaluations;
-    bed->listed = true;
-    bed->rebuilds++;
+    note_listed(bed, built_moved);
     return true;
 }
 

@@ -51,12 +51,15 @@ struct gb_bed {
     double smallest;            /* radius */
     int32_t *counts;            /* one per particle, for measures to count in */
     int64_t evaluations, rebuilds;
-    /* the lists hold while nothing has moved further than half the skin */
-    double skin;
-    struct gb_hgrid hgrid;
-    gb_bed_row *listed_position;
-    double punch_listed_position, top_listed_position;
-    int64_t listed_evaluation; /* evaluations then */
+    /* The candidates, pairs with a gap below the skin, and the list of walls hold while
+     * nothing has moved further than half the skin since they were built; the list of pairs,
+     * those of them with a gap below near_skin, half of that since it was drawn. */
+    double skin, near_skin;
+    struct gb_hgrid hgrid; /* the candidates */
+    gb_bed_row *built_position, *listed_position;
+    double built_moved; /* from built to listed_position, at most */
+    double punch_built_position, top_built_position;
+    int64_t built_evaluation, listed_evaluation; /* evaluations then */
     bool listed;
     struct gb_bed_list previous_pairs, previous_walls;
 };
@@ -73,7 +76,7 @@ void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law);
 
 /* Forces and torques at the present positions and velocities; advances the history of
  * every contact over the step since the last evaluation.  moved2: largest squared
- * displacement of a particle since the lists were built.  Errors: GB_ERR_MEMORY. */
+ * displacement of a particle from its listed_position.  Errors: GB_ERR_MEMORY. */
 bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2,
                      struct gb_error *err);
 

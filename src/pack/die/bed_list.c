@@ -159,14 +159,55 @@ static struct gb_hgrid_box box_of(const struct gb_bed *bed)
     return box;
 }
 
-static bool list_pairs(struct gb_bed *bed, struct gb_error *err)
+/* True for a gap below near_skin, or one that is not a number. */
+static bool near(const struct gb_bed *bed, int64_t i, int64_t j)
+{
+    const double *a = bed->position[i], *b = bed->position[j];
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    const double reach = a[3] + b[3] + bed->near_skin;
+    return !(x * x + y * y + z * z >= reach * reach);
+}
+
+static void copy_constants(struct gb_bed_contacts *to, int64_t slot,
+                           const struct gb_bed_contacts *from, int64_t old)
+{
+    to->hertz[slot] = from->hertz[old];
+    to->damping[slot] = from->damping[old];
+    to->inverse_mass[slot] = from->inverse_mass[old];
+    to->transition[slot] = from->transition[old];
+}
+
+/* The near candidates of particle i.  Those that the last list has, from slot `old` on, keep
+ * their histories; their constants as well unless these are to be set anew. */
+static void draw_pairs_of(struct gb_bed *bed, int64_t i, int64_t old, bool anew)
 {
     struct gb_bed_list *list = &bed->pairs;
-    const struct gb_hgrid_box box = box_of(bed);
-    if (!gb_hgrid_build(&bed->hgrid, &box, bed->count, (const gb_bed_row *)bed->position,
-                        NULL, bed->skin, err)) {
-        return false;
+    const struct gb_bed_list *last = &bed->previous_pairs;
+    for (int64_t k = bed->hgrid.start[i]; k < bed->hgrid.start[i + 1]; k++) {
+        const int32_t j = bed->hgrid.other[k];
+        if (!near(bed, i, j)) {
+            continue;
+        }
+        while (old < last->start[i + 1] && last->other[old] < j) {
+            old++;
+        }
+        const bool known = old < last->start[i + 1] && last->other[old] == j;
+        if (!known || anew) {
+            add_slot(list, i, j, bed);
+        } else {
+            list->first[list->count] = (int32_t)i;
+            list->other[list->count] = j;
+            copy_constants(&list->contacts, list->count++, &last->contacts, old);
+        }
+        if (known) {
+            copy_slot(&list->contacts, list->count - 1, &last->contacts, old);
+        }
     }
+}
+
+static bool draw_pairs(struct gb_bed *bed, bool anew, struct gb_error *err)
+{
+    struct gb_bed_list *list = &bed->pairs;
     swap(list, &bed->previous_pairs);
     if (!make_room(list, bed->count, bed->hgrid.pair_count, err)) {
         return false;
@@ -174,16 +215,23 @@ static bool list_pairs(struct gb_bed *bed, struct gb_error *err)
     list->count = 0;
     for (int64_t i = 0; i < bed->count; i++) {
         list->start[i] = list->count;
-        for (int64_t k = bed->hgrid.start[i]; k < bed->hgrid.start[i + 1]; k++) {
-            add_slot(list, i, bed->hgrid.other[k], bed);
-        }
+        draw_pairs_of(bed, i, bed->previous_pairs.start[i], anew);
     }
     list->start[bed->count] = list->count;
-    gb_bed_list_transfer(list, &bed->previous_pairs, bed->count);
     return true;
+}
+
+bool gb_bed_list_draw(struct gb_bed *bed, struct gb_error *err)
+{
+    return draw_pairs(bed, false, err);
 }
 
 bool gb_bed_list_rebuild(struct gb_bed *bed, struct gb_error *err)
 {
-    return list_pairs(bed, err) && list_walls(bed, err);
+    /* contacts of a record have no constants, and the law may be another one */
+    const bool anew = true;
+    const struct gb_hgrid_box box = box_of(bed);
+    return gb_hgrid_build(&bed->hgrid, &box, bed->count,
+                          (const gb_bed_row *)bed->position, NULL, bed->skin, err) &&
+           draw_pairs(bed, anew, err) && list_walls(bed, err);
 }

@@ -7,8 +7,11 @@ bool gb_bed_list_init(struct gb_bed_list *list, int64_t particles, int64_t room,
                       struct gb_error *err);
 void gb_bed_list_finish(struct gb_bed_list *list);
 
-/* Rebuilds both lists of a bed; touching contacts keep their histories. */
+/* Rebuilds candidates and lists of a bed; touching contacts keep their histories. */
 bool gb_bed_list_rebuild(struct gb_bed *bed, struct gb_error *err);
+
+/* Draws the list of pairs anew from the candidates. */
+bool gb_bed_list_draw(struct gb_bed *bed, struct gb_error *err);
 
 /* Gives the contacts of `to` the histories that `from` holds for the same pairs. */
 void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
