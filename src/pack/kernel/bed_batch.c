@@ -5,9 +5,9 @@
 #include "pack/kernel/bed_laws.h"
 #include "pack/kernel/simd.h"
 
-/* Pairs: normal, overlap and lever from the branch vector.  The contact point divides it as
- * the radii do, so that the torques conserve angular momentum up to rounding. */
-INLINE void pair_geometry(struct gb_bed_batch *restrict b)
+/* Pairs: normal, overlap and, with friction, lever from the branch vector.  The contact point
+ * divides it as the radii do, so that the torques conserve angular momentum up to rounding. */
+INLINE void pair_geometry(struct bed_terms t, struct gb_bed_batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
@@ -17,7 +17,9 @@ INLINE void pair_geometry(struct gb_bed_batch *restrict b)
         b->unit[1][k] = y * inverse;
         b->unit[2][k] = z * inverse;
         b->overlap[k] = b->reach[k] - r;
-        b->lever[k] = r / b->reach[k];
+        if (t.friction) {
+            b->lever[k] = r / b->reach[k];
+        }
     }
 }
 
@@ -117,7 +119,7 @@ INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
     {                                                                                    \
         const struct bed_terms t = {__VA_ARGS__};                                        \
         if (!t.walls) {                                                                  \
-            pair_geometry(batch);                                                        \
+            pair_geometry(t, batch);                                                     \
         }                                                                                \
         contact_forces(law, t, batch, contacts, slot);                                   \
     }
