@@ -23,93 +23,195 @@ INLINE void pair_geometry(struct bed_terms t, struct gb_bed_batch *restrict b)
     }
 }
 
-INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
-                           struct gb_bed_batch *restrict b,
-                           struct gb_bed_contacts *restrict c, int64_t slot)
+/* Storakers: the elastic part y of overlap h on the loading curve, so that the force is
+ * Hertz' at y.  With h_x the overlap where (2) and (16) meet, F = (16) means
+ * y = h_x (h/h_x)^((2+m)/3): one power of a ratio near 1 instead of two of h.  Below h_x
+ * the lesser force is that of Hertz and y = h; the printed law uses (16) there too. */
+INLINE void loaded_parts(const struct gb_bed_law *law, struct bed_terms t,
+                         struct gb_bed_batch *restrict b,
+                         const double *restrict transition)
 {
-    const double *restrict hertz = c->hertz + slot, *restrict damping = c->damping + slot;
-    const double *restrict inverse_mass = c->inverse_mass + slot, *restrict transition =
-                                                                      c->transition +
-                                                                      slot;
+    const double power = (2.0 + law->normal.exponent) / 3.0;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const double positive = larger(larger(b->overlap[k], 0.0), 1e-300);
+        b->ratio[k] = positive / transition[k];
+    }
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        b->logarithm[k] = power * log2_of(b->ratio[k]);
+    }
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const double plastic = transition[k] * exp2_of(b->logarithm[k]);
+        const double h = larger(larger(b->overlap[k], 0.0), 1e-300);
+        b->loaded[k] = selected(bit_mask(t.printed | (b->ratio[k] > 1.0)), plastic, h);
+    }
+}
+
+/* Storakers: the plastic part of the overlap; stiffness 1 where it grows, else 0. */
+INLINE void plastic_parts(const struct gb_bed_law *law, struct bed_terms t,
+                          struct gb_bed_batch *restrict b,
+                          struct gb_bed_contacts *restrict c, int64_t slot)
+{
     double *restrict deepest = c->deepest + slot, *restrict permanent =
                                                       c->permanent + slot;
-    double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
-    double *restrict sz = c->shear[2] + slot, *restrict normal = c->normal + slot;
-    const double power = (2.0 + law->normal.exponent) / 3.0;
+    loaded_parts(law, t, b, c->transition + slot);
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const double h = larger(b->overlap[k], 0.0), before = deepest[k];
+        const double touching = mask(b->overlap[k] > 0.0);
+        const bool loads = h >= before;
+        const double plastic =
+            touching * selected(bit_mask(loads), h - b->loaded[k], permanent[k]);
+        b->stiffness[k] = mask(loads & (plastic != 0.0));
+        deepest[k] = larger(touching * before, h);
+        permanent[k] = plastic;
+    }
+}
+
+/* Normal forces with their dashpots. */
+INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
+                          struct gb_bed_batch *restrict b,
+                          struct gb_bed_contacts *restrict c, int64_t slot)
+{
+    const double *restrict hertz = c->hertz + slot, *restrict damping = c->damping + slot;
+    const double *restrict inverse_mass = c->inverse_mass + slot;
+    const double *restrict permanent = c->permanent + slot;
+    double *restrict normal = c->normal + slot;
     const double slope = 1.0 + 0.5 * law->normal.exponent;
-    const double stick = law->shear * b->step, mu = b->mu;
     double stiffest = b->stiffest;
 #pragma omp simd reduction(max : stiffest)
     for (int k = 0; k < b->n; k++) {
         const double nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
         const double h = larger(b->overlap[k], 0.0);
         const double touching = mask(b->overlap[k] > 0.0);
-        double ux = b->slip[0][k], uy = b->slip[1][k], uz = b->slip[2][k];
-        const double normal_rate = ux * nx + uy * ny + uz * nz;
-        double part = h;
-        double yields = 0.0;
-        if (t.storakers) {
-            const double deepest_before = deepest[k], positive = larger(h, 1e-300);
-            const double loaded = loaded_part(t, power, positive, transition[k]);
-            const bool loads = h >= deepest_before;
-            const double plastic = touching * (loads ? h - loaded : permanent[k]);
-            part = larger(h - plastic, 0.0);
-            yields = mask(loads & (plastic != 0.0));
-            deepest[k] = larger(touching * deepest_before, h);
-            permanent[k] = plastic;
-        }
+        const double part = t.storakers ? larger(h - permanent[k], 0.0) : h;
         const double root = sqrt(part);
         const double elastic = hertz[k] * part * root, unloading = 1.5 * hertz[k] * root;
+        const double approach =
+            b->slip[0][k] * nx + b->slip[1][k] * ny + b->slip[2][k] * nz;
         double stiffness = unloading;
         if (t.storakers) {
+            const double yields = b->stiffness[k];
             const double loading = slope * elastic / larger(h, 1e-300);
             stiffness = yields * loading + (1.0 - yields) * unloading;
         }
-        const double dashpot = damping[k] * sqrt(stiffness) * normal_rate;
+        const double dashpot = damping[k] * sqrt(stiffness) * approach;
         const double fn = larger(elastic - dashpot, 0.0);
         const double rate = unloading * inverse_mass[k];
         stiffest = rate > stiffest ? rate : stiffest;
-        double fx = fn * nx, fy = fn * ny, fz = fn * nz;
-        if (t.friction) {
-            const double q = b->lever[k];
-            const double wx = b->roll[0][k], wy = b->roll[1][k], wz = b->roll[2][k];
-            ux -= normal_rate * nx + q * (wy * nz - wz * ny);
-            uy -= normal_rate * ny + q * (wz * nx - wx * nz);
-            uz -= normal_rate * nz + q * (wx * ny - wy * nx);
-            double tx = sx[k], ty = sy[k], tz = sz[k];
-            const double before = tx * tx + ty * ty + tz * tz;
-            const double along = tx * nx + ty * ny + tz * nz;
-            tx -= along * nx;
-            ty -= along * ny;
-            tz -= along * nz;
-            const double keep = keep_length(before, tx * tx + ty * ty + tz * tz);
-            const double drag = stick * stiffness;
-            tx = keep * tx - drag * ux;
-            ty = keep * ty - drag * uy;
-            tz = keep * tz - drag * uz;
-            const double cap = mu * fn, load2 = tx * tx + ty * ty + tz * tz;
-            const double held =
-                touching * ((load2 > cap * cap) ? cap / sqrt(load2) : 1.0);
-            /* + 0: an open contact is as one that was never listed, which has no -0 */
-            tx = held * tx + 0.0;
-            ty = held * ty + 0.0;
-            tz = held * tz + 0.0;
-            sx[k] = tx;
-            sy[k] = ty;
-            sz[k] = tz;
-            fx += tx;
-            fy += ty;
-            fz += tz;
-            b->moment[0][k] = q * (nz * ty - ny * tz);
-            b->moment[1][k] = q * (nx * tz - nz * tx);
-            b->moment[2][k] = q * (ny * tx - nx * ty);
-        }
         normal[k] = touching * fn - (1.0 - touching);
-        b->force[0][k] = fx;
-        b->force[1][k] = fy;
-        b->force[2][k] = fz;
+        b->along[k] = fn;
+        if (t.friction) {
+            b->stiffness[k] = stiffness;
+            b->approach[k] = approach;
+        }
+        b->force[0][k] = fn * nx;
+        b->force[1][k] = fn * ny;
+        b->force[2][k] = fn * nz;
     }
     b->stiffest = stiffest;
+}
+
+/* Shear springs turned into the tangent plane, but shorter by what was normal to it; the
+ * shear that follows. */
+INLINE void turn_shear(const struct gb_bed_law *law, struct gb_bed_batch *restrict b,
+                       struct gb_bed_contacts *restrict c, int64_t slot)
+{
+    double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
+    double *restrict sz = c->shear[2] + slot;
+    const double stick = law->shear * b->step;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const double nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
+        const double q = b->lever[k], approach = b->approach[k];
+        const double wx = b->roll[0][k], wy = b->roll[1][k], wz = b->roll[2][k];
+        const double drag = stick * b->stiffness[k];
+        double tx = sx[k], ty = sy[k], tz = sz[k];
+        const double along = tx * nx + ty * ny + tz * nz;
+        b->square[0][k] = tx * tx + ty * ty + tz * tz;
+        tx -= along * nx;
+        ty -= along * ny;
+        tz -= along * nz;
+        b->square[1][k] = tx * tx + ty * ty + tz * tz;
+        sx[k] = tx;
+        sy[k] = ty;
+        sz[k] = tz;
+        b->rate[0][k] =
+            drag * (b->slip[0][k] - (approach * nx + q * (wy * nz - wz * ny)));
+        b->rate[1][k] =
+            drag * (b->slip[1][k] - (approach * ny + q * (wz * nx - wx * nz)));
+        b->rate[2][k] =
+            drag * (b->slip[2][k] - (approach * nz + q * (wx * ny - wy * nx)));
+    }
+}
+
+/* Shear springs of their former lengths, advanced, and the share that their caps leave. */
+INLINE void advance_shear(struct gb_bed_batch *restrict b,
+                          struct gb_bed_contacts *restrict c, int64_t slot)
+{
+    double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
+    double *restrict sz = c->shear[2] + slot;
+    const double mu = b->mu;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        b->kept[k] = keep_length(b->square[0][k], b->square[1][k]);
+    }
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const double keep = b->kept[k];
+        const double tx = keep * sx[k] - b->rate[0][k];
+        const double ty = keep * sy[k] - b->rate[1][k];
+        const double tz = keep * sz[k] - b->rate[2][k];
+        const double cap = mu * b->along[k], load2 = tx * tx + ty * ty + tz * tz;
+        const double touching = mask(b->overlap[k] > 0.0);
+        b->kept[k] = touching * ((load2 > cap * cap) ? cap / sqrt(load2) : 1.0);
+        sx[k] = tx;
+        sy[k] = ty;
+        sz[k] = tz;
+    }
+}
+
+/* Shear springs cut at their caps; their forces and moments. */
+INLINE void shear_forces(struct gb_bed_batch *restrict b,
+                         struct gb_bed_contacts *restrict c, int64_t slot)
+{
+    double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
+    double *restrict sz = c->shear[2] + slot;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const double nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
+        const double q = b->lever[k], held = b->kept[k];
+        /* + 0: an open contact is as one that was never listed, which has no -0 */
+        const double tx = held * sx[k] + 0.0, ty = held * sy[k] + 0.0;
+        const double tz = held * sz[k] + 0.0;
+        sx[k] = tx;
+        sy[k] = ty;
+        sz[k] = tz;
+        b->force[0][k] += tx;
+        b->force[1][k] += ty;
+        b->force[2][k] += tz;
+        b->moment[0][k] = q * (nz * ty - ny * tz);
+        b->moment[1][k] = q * (nx * tz - nz * tx);
+        b->moment[2][k] = q * (ny * tx - nx * ty);
+    }
+}
+
+/* Short loops, as in batch_3d.h. */
+INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
+                           struct gb_bed_batch *restrict b,
+                           struct gb_bed_contacts *restrict c, int64_t slot)
+{
+    if (t.storakers) {
+        plastic_parts(law, t, b, c, slot);
+    }
+    normal_forces(law, t, b, c, slot);
+    if (t.friction) {
+        turn_shear(law, b, c, slot);
+        advance_shear(b, c, slot);
+        shear_forces(b, c, slot);
+    }
 }
 
 /* One variant; the terms that it computes are the arguments behind the attribute. */

@@ -22,6 +22,13 @@ struct gb_bed_batch {
     double roll[3][GB_BED_BATCH]; /* in, friction: R_i w_i + R_j w_j */
     /* out: force on i; torque on i is R_i moment, on j R_j moment */
     double force[3][GB_BED_BATCH], moment[3][GB_BED_BATCH];
+    /* from loop to loop: h/h_x, the binary logarithm of the elastic part over h_x, and that
+     * part; normal force, its stiffness and the rate of the overlap; of the shear springs
+     * what they become longer by, their squares before and after they were turned, and a
+     * factor */
+    double ratio[GB_BED_BATCH], logarithm[GB_BED_BATCH], loaded[GB_BED_BATCH];
+    double along[GB_BED_BATCH], stiffness[GB_BED_BATCH], approach[GB_BED_BATCH];
+    double rate[3][GB_BED_BATCH], square[2][GB_BED_BATCH], kept[GB_BED_BATCH];
     double stiffest; /* largest omega^2 = k/m of (29) so far; in and out */
 };
 

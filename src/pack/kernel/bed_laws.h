@@ -76,15 +76,4 @@ INLINE double exp2_of(double t)
     return sum * of_bits((bits_of(shifted) << 52) + 0x3ff0000000000000U);
 }
 
-/* Elastic part y of overlap h on the loading curve, so that the force is Hertz' at y.
- * With h_x the overlap where (2) and (16) meet, F = (16) means y = h_x (h/h_x)^((2+m)/3):
- * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is that
- * of Hertz and y = h; the printed law uses (16) there too. */
-INLINE double loaded_part(struct bed_terms t, double power, double h, double transition)
-{
-    const double ratio = h / transition;
-    const double plastic = transition * exp2_of(power * log2_of(ratio));
-    return (t.printed | (ratio > 1.0)) ? plastic : h;
-}
-
 #endif
