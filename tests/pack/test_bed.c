@@ -54,12 +54,9 @@ static void test_momentum(void)
     gb_bed_destroy(bed);
 }
 
-/* The list with its skin finds the contacts that a scan of all pairs finds. */
-static void test_list(void)
+/* The list has the contacts that a scan of all pairs finds; returns their number. */
+static int64_t check_list(const struct gb_bed *bed)
 {
-    const struct gb_bed_law law = bed_law();
-    struct gb_bed *bed = cluster(&law, 300);
-    bed_evaluate(bed, 0.0);
     int64_t touching = 0, listed = 0;
     for (int64_t slot = 0; slot < bed->pairs.count; slot++) {
         listed += bed->pairs.contacts.normal[slot] >= 0.0;
@@ -78,8 +75,84 @@ static void test_list(void)
         }
     }
     g_assert_cmpint(listed, ==, touching);
-    g_assert_cmpint(touching, >, 300);
+    return touching;
+}
+
+static void test_list(void)
+{
+    const struct gb_bed_law law = bed_law();
+    struct gb_bed *bed = cluster(&law, 300);
+    bed_evaluate(bed, 0.0);
+    g_assert_cmpint(check_list(bed), >, 300);
     gb_bed_destroy(bed);
+}
+
+static double moved2(const struct gb_bed *bed)
+{
+    double most2 = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        double moved[3] = {bed->position[i][0], bed->position[i][1], bed->position[i][2]};
+        gb_vec_add(moved, -1.0, bed->listed_position[i]);
+        most2 = fmax(most2, gb_vec_dot(moved, moved));
+    }
+    return most2;
+}
+
+/* The same at every step of particles that fly apart and come back: the list of pairs is
+ * drawn often, from candidates that are built rarely. */
+static void test_moving_list(void)
+{
+    enum { STEPS = 1600, TURN = 400 };
+    const struct gb_bed_law law = bed_law();
+    struct gb_error err = {0};
+    struct gb_bed *bed = cluster(&law, 200);
+    int64_t drawn = 0, least = INT64_MAX, most = 0;
+    for (int step = 0; step < STEPS; step++) {
+        const double factor = step / TURN % 2 == 0 ? 1.0 : -1.0;
+        const int64_t listed = bed->listed_evaluation;
+        for (int64_t i = 0; i < bed->count; i++) {
+            gb_vec_add(bed->position[i], factor, bed->velocity[i]);
+        }
+        g_assert_true(gb_bed_evaluate(bed, 0.1, moved2(bed), &err));
+        drawn += bed->listed_evaluation != listed;
+        const int64_t touching = check_list(bed);
+        least = MIN(least, touching);
+        most = MAX(most, touching);
+    }
+    g_test_message("%d steps, %lld lists from %lld builds, %lld to %lld contacts", STEPS,
+                   (long long)drawn, (long long)bed->rebuilds, (long long)least,
+                   (long long)most);
+    g_assert_cmpint(most, >, least + 50);
+    g_assert_cmpint(drawn, >, bed->rebuilds + bed->rebuilds / 2);
+    g_assert_cmpint(bed->rebuilds, >, 3);
+    gb_bed_destroy(bed);
+}
+
+/* A sphere and the punch that come closer, the sphere by a share of the way: in contact as
+ * soon as they overlap. */
+static void test_moving_punch(void)
+{
+    const double radius = 0.5, step = 0.003;
+    const struct gb_bed_law law = bed_law();
+    struct gb_error err = {0};
+    for (int pass = 0; pass < 400; pass++) {
+        const int share = pass % 11;
+        struct gb_die die = bed_die(4.0);
+        die.punch = true;
+        die.punch_position = 5.0 + 0.00731 * pass;
+        struct gb_bed *bed = bed_create(1, &radius, &die, &law);
+        bed_set_position(bed, 0, 0.0, 0.0, 2.0);
+        double overlap = -1.0;
+        for (int n = 0; overlap < 0.1; n++) {
+            const double by = 0.1 * share * step;
+            bed->position[0][2] += by;
+            bed->die.punch_position -= step - by;
+            g_assert_true(gb_bed_evaluate(bed, 0.1, n == 0 ? 0.0 : moved2(bed), &err));
+            overlap = bed->position[0][2] + radius - bed->die.punch_position;
+            g_assert_cmpint(overlap > 0.0, ==, bed->tally.punch > 0.0);
+        }
+        gb_bed_destroy(bed);
+    }
 }
 
 /* Signs and sums of the walls: a sphere pressed on each of them by a known overlap. */
@@ -250,7 +323,8 @@ static void test_reopened(void)
         g_assert_cmpfloat(sign * shear_at(listed, 0.49, sign * 1e-3), <, 0.0);
         g_assert_false(signbit(shear_at(listed, 0.501, sign * 1e-3)));
         gb_bed_set_law(fresh, &law);
-        const double again = shear_at(listed, 0.49, 0.0), first = shear_at(fresh, 0.49, 0.0);
+        const double again = shear_at(listed, 0.49, 0.0),
+                     first = shear_at(fresh, 0.49, 0.0);
         g_assert_cmpfloat(again, ==, 0.0);
         g_assert_cmpint(signbit(again), ==, signbit(first));
     }
@@ -264,6 +338,8 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/bed/momentum", test_momentum);
     g_test_add_func("/bed/list", test_list);
+    g_test_add_func("/bed/moving-list", test_moving_list);
+    g_test_add_func("/bed/moving-punch", test_moving_punch);
     g_test_add_func("/bed/walls", test_walls);
     g_test_add_func("/bed/funnel", test_funnel);
     g_test_add_func("/bed/copy", test_copy);
