@@ -123,6 +123,7 @@ if "$greenbody" --version | grep -q 'no pictures'; then
     told "s says that there are no pictures" 'this build has no pictures'
 else
     told "s makes a picture" 'picture saved:'
+    hides "and is no longer told to be at it" 'rendering'
     is "and it is there" [ -s "$(ls "$runs"/default-*/picture-1.png)" ]
 fi
 

@@ -136,6 +136,12 @@ bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
 static void draw_message(struct gb_screen *screen)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);
+    if (screen->making != NULL && screen->session.child.pid == 0) {
+        if (strcmp(screen->message.text, screen->making) == 0) {
+            screen->message.text[0] = '\0';
+        }
+        screen->making = NULL;
+    }
     struct gb_message message = screen->message;
     if (message.text[0] == '\0') {
         message.style = GB_STYLE_DIM;

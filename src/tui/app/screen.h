@@ -18,6 +18,7 @@ struct gb_screen {
     struct gb_dialog dialog;
     struct gb_term_image image; /* picture over the cells of the packing */
     struct gb_message message;  /* "": the description of the focused pane instead */
+    const char *making; /* a message that ends with the child command; NULL: none */
 };
 
 /* Draws everything into curses' virtual screen; gb_term_flush sends the differences to

@@ -204,6 +204,7 @@ static void make(struct gb_app *app, const char *name, const char *path,
     if (gb_child_command_start(&app->screen.session.child, name, path,
                                GB_CHILD_COMMAND_SHORT, words, &err)) {
         gb_screen_commands_message(app, GB_STYLE_PLAIN, started);
+        app->screen.making = started;
     } else {
         gb_screen_commands_message(app, GB_STYLE_BAD, err.text);
     }
