@@ -102,13 +102,13 @@ static double moved2(const struct gb_bed *bed)
  * drawn often, from candidates that are built rarely. */
 static void test_moving_list(void)
 {
-    enum { STEPS = 1600, TURN = 400 };
+    enum { STEPS = 1600, PERIOD = 400 };
     const struct gb_bed_law law = bed_law();
     struct gb_error err = {0};
     struct gb_bed *bed = cluster(&law, 200);
     int64_t drawn = 0, least = INT64_MAX, most = 0;
     for (int step = 0; step < STEPS; step++) {
-        const double factor = step / TURN % 2 == 0 ? 1.0 : -1.0;
+        const double factor = step / PERIOD % 2 == 0 ? 1.0 : -1.0;
         const int64_t listed = bed->listed_evaluation;
         for (int64_t i = 0; i < bed->count; i++) {
             gb_vec_add(bed->position[i], factor, bed->velocity[i]);

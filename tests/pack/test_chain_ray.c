@@ -12,7 +12,7 @@
 enum { IMAGES = 2 };
 
 /* One of a ray's positions, from the start of the ray. */
-struct place {
+struct candidate {
     double x[3], along;
     int neighbours; /* -1: overlaps a particle */
 };
@@ -48,31 +48,31 @@ static void each_image(const struct before *before,
 
 struct look {
     const struct before *before;
-    struct place *place;
+    struct candidate *candidate;
 };
 
 static void look_at(int64_t j, const double r[3], void *data)
 {
     const struct look *look = data;
     double from[3] = {r[0], r[1], r[2]};
-    gb_vec_add(from, -1.0, look->place->x);
+    gb_vec_add(from, -1.0, look->candidate->x);
     const double apart = gb_vec_length(from);
     if (apart < (1.0 - GB_ROLL_TOLERANCE) * look->before->touch[j]) {
-        look->place->neighbours = -1;
-    } else if (look->place->neighbours >= 0) {
-        look->place->neighbours += apart <= look->before->growth->grow->r_meso;
+        look->candidate->neighbours = -1;
+    } else if (look->candidate->neighbours >= 0) {
+        look->candidate->neighbours += apart <= look->before->growth->grow->r_meso;
     }
 }
 
 struct ray {
     const struct before *before;
     double direction[3], length;
-    struct place best;
+    struct candidate best;
     int free; /* positions without overlap */
 };
 
 /* The position behind one image, kept where it is better than all before. */
-static void place_behind(int64_t j, const double r[3], void *data)
+static void candidate_behind(int64_t j, const double r[3], void *data)
 {
     struct ray *ray = data;
     const double touch = ray->before->touch[j], foot = gb_vec_dot(r, ray->direction);
@@ -80,19 +80,21 @@ static void place_behind(int64_t j, const double r[3], void *data)
     if (foot < 0.0 || foot > ray->length || across >= touch * touch) {
         return;
     }
-    struct place place = {.along = foot + sqrt(touch * touch - fmax(across, 0.0))};
+    struct candidate candidate = {.along =
+                                      foot + sqrt(touch * touch - fmax(across, 0.0))};
     for (int k = 0; k < 3; k++) {
-        place.x[k] = place.along * ray->direction[k];
+        candidate.x[k] = candidate.along * ray->direction[k];
     }
-    struct look look = {ray->before, &place};
+    struct look look = {ray->before, &candidate};
     each_image(ray->before, look_at, &look);
-    if (place.neighbours < 0) {
+    if (candidate.neighbours < 0) {
         return;
     }
-    place.neighbours = MAX(place.neighbours, 1); /* what is touched is one */
-    if (ray->free == 0 || place.neighbours < ray->best.neighbours ||
-        (place.neighbours == ray->best.neighbours && place.along > ray->best.along)) {
-        ray->best = place;
+    candidate.neighbours = MAX(candidate.neighbours, 1); /* what is touched is one */
+    if (ray->free == 0 || candidate.neighbours < ray->best.neighbours ||
+        (candidate.neighbours == ray->best.neighbours &&
+         candidate.along > ray->best.along)) {
+        ray->best = candidate;
     }
     ray->free++;
 }
@@ -122,7 +124,7 @@ static struct ray cast(const struct before *before, const gsl_rng *rng)
         gb_random_direction_2d(rng, &ray.direction[0], &ray.direction[2]);
     }
     ray.length = length_of(before, ray.direction);
-    each_image(before, place_behind, &ray);
+    each_image(before, candidate_behind, &ray);
     return ray;
 }
 
@@ -173,7 +175,7 @@ static void check(const struct gb_chain_growth *grow)
     struct gb_cell cell;
     gsl_rng rng;
     static const double first[3] = {0.3, 0.0, 0.6};
-    int rays = 0, places = 0;
+    int rays = 0, choices = 0;
     staying.single_contact = 1.0;
     gb_cell_init(&cell, grow->dimension, grow->edges);
     g_assert_true(gb_random_open(&growth.rng, &grow->seed, GB_RANDOM_POSITIONS, &err) &&
@@ -189,13 +191,13 @@ static void check(const struct gb_chain_growth *grow)
     g_assert_true(gb_chain_ray_try(&growth, 0)); /* the second one has no choice */
     while (growth.grid->count < grow->count && rays < 2 * grow->count) {
         const int64_t origin = (7 * rays) % growth.grid->count;
-        places += check_ray(&growth, &rng, origin);
+        choices += check_ray(&growth, &rng, origin);
         rays++;
     }
     g_test_message("%dD, r_meso %g%s: %lld particles, %d rays, %d free positions",
                    grow->dimension, grow->r_meso, grow->model ? ", sizes" : "",
-                   (long long)growth.grid->count, rays, places);
-    g_assert_cmpint(places, >, 2 * growth.grid->count); /* there was a choice */
+                   (long long)growth.grid->count, rays, choices);
+    g_assert_cmpint(choices, >, 2 * growth.grid->count); /* there was a choice */
     gb_alloc_free(growth.diameter);
     gb_alloc_free(growth.candidates);
     gb_grid_destroy(growth.grid);

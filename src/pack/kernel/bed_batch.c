@@ -114,10 +114,10 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
     b->stiffest = stiffest;
 }
 
-/* Shear springs turned into the tangent plane, but shorter by what was normal to it; the
+/* Shear springs rotated into the tangent plane, but shorter by what was normal to it; the
  * shear that follows. */
-INLINE void turn_shear(const struct gb_bed_law *law, struct gb_bed_batch *restrict b,
-                       struct gb_bed_contacts *restrict c, int64_t slot)
+INLINE void rotate_shear(const struct gb_bed_law *law, struct gb_bed_batch *restrict b,
+                         struct gb_bed_contacts *restrict c, int64_t slot)
 {
     double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
     double *restrict sz = c->shear[2] + slot;
@@ -208,7 +208,7 @@ INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
     }
     normal_forces(law, t, b, c, slot);
     if (t.friction) {
-        turn_shear(law, b, c, slot);
+        rotate_shear(law, b, c, slot);
         advance_shear(b, c, slot);
         shear_forces(b, c, slot);
     }

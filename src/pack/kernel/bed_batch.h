@@ -24,7 +24,7 @@ struct gb_bed_batch {
     double force[3][GB_BED_BATCH], moment[3][GB_BED_BATCH];
     /* from loop to loop: h/h_x, the binary logarithm of the elastic part over h_x, and that
      * part; normal force, its stiffness and the rate of the overlap; of the shear springs
-     * what they become longer by, their squares before and after they were turned, and a
+     * what they become longer by, their squares before and after they were rotated, and a
      * factor */
     double ratio[GB_BED_BATCH], logarithm[GB_BED_BATCH], loaded[GB_BED_BATCH];
     double along[GB_BED_BATCH], stiffness[GB_BED_BATCH], approach[GB_BED_BATCH];

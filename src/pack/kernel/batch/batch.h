@@ -33,7 +33,7 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         /* from the first half of a law to the second */                                   \
         real unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH];                      \
         bits lasts[GB_BATCH]; /* all bits: in contact before and now */                    \
-        /* squared springs of shear and rolling, before and after their turns */           \
+        /* squared springs of shear and rolling, before and after their rotation */        \
         real square[4][GB_BATCH];                                                          \
         real rate[8][GB_BATCH]; /* increments of the springs; 7: of h */                   \
         /* parts of the normal force; the force, its slope, and it without adhesion */     \

@@ -49,10 +49,11 @@ INLINE void contact_geometry_3d(const struct gb_model *model, struct terms t,
     }
 }
 
-/* Shear springs turned into the tangent plane, but shorter by what was normal to it; the
+/* Shear springs rotated into the tangent plane, but shorter by what was normal to it; the
  * shear that follows.  The branch vectors become those of the next move. */
-INLINE void turn_shear_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
-                          struct gb_contacts *restrict c, int64_t slot)
+INLINE void rotate_shear_3d(const struct gb_model *model, struct terms t,
+                            BATCH *restrict b, struct gb_contacts *restrict c,
+                            int64_t slot)
 {
     real *restrict ax = PLANE(c->branch[0]), *restrict ay = PLANE(c->branch[1]);
     real *restrict az = PLANE(c->branch[2]);
@@ -99,9 +100,9 @@ INLINE void turn_shear_3d(const struct gb_model *model, struct terms t, BATCH *r
 }
 
 /* The same for rolling; springs of pivoting, advanced by the relative rotation. */
-INLINE void turn_rolling_3d(const struct gb_model *model, struct terms t,
-                            BATCH *restrict b, struct gb_contacts *restrict c,
-                            int64_t slot)
+INLINE void rotate_rolling_3d(const struct gb_model *model, struct terms t,
+                              BATCH *restrict b, struct gb_contacts *restrict c,
+                              int64_t slot)
 {
     const real *restrict deepest = PLANE(c->deepest);
     real *restrict pivot = PLANE(c->pivot);
@@ -145,7 +146,7 @@ INLINE void turn_rolling_3d(const struct gb_model *model, struct terms t,
     }
 }
 
-/* Factors that restore the lengths of the turned springs. */
+/* Factors that restore the lengths of the rotated springs. */
 INLINE void restore_lengths(struct terms t, BATCH *restrict b)
 {
 #pragma omp simd
@@ -414,9 +415,9 @@ INLINE void advance_3d(const struct gb_model *model, struct terms t, BATCH *b,
                        struct gb_contacts *c, int64_t slot)
 {
     contact_geometry_3d(model, t, b, c, slot);
-    turn_shear_3d(model, t, b, c, slot);
+    rotate_shear_3d(model, t, b, c, slot);
     if (t.friction) {
-        turn_rolling_3d(model, t, b, c, slot);
+        rotate_rolling_3d(model, t, b, c, slot);
         restore_lengths(t, b);
         advance_springs_3d(model, t, b, c, slot);
     }
