@@ -128,16 +128,12 @@ INLINE void rotate_shear(const struct gb_bed_law *law, struct gb_bed_batch *rest
         const double q = b->lever[k], approach = b->approach[k];
         const double wx = b->roll[0][k], wy = b->roll[1][k], wz = b->roll[2][k];
         const double drag = stick * b->stiffness[k];
-        double tx = sx[k], ty = sy[k], tz = sz[k];
-        const double along = tx * nx + ty * ny + tz * nz;
-        b->square[0][k] = tx * tx + ty * ty + tz * tz;
-        tx -= along * nx;
-        ty -= along * ny;
-        tz -= along * nz;
-        b->square[1][k] = tx * tx + ty * ty + tz * tz;
-        sx[k] = tx;
-        sy[k] = ty;
-        sz[k] = tz;
+        const struct rotated t = rotate_spring(nx, ny, nz, sx[k], sy[k], sz[k]);
+        b->square[0][k] = t.before;
+        b->square[1][k] = t.after;
+        sx[k] = t.x;
+        sy[k] = t.y;
+        sz[k] = t.z;
         b->rate[0][k] =
             drag * (b->slip[0][k] - (approach * nx + q * (wy * nz - wz * ny)));
         b->rate[1][k] =

@@ -75,16 +75,12 @@ INLINE void rotate_shear_3d(const struct gb_model *model, struct terms t,
             const real uy = ry - ay[k] - lever * (wz * nx - wx * nz);
             const real uz = rz - az[k] - lever * (wx * ny - wy * nx);
             const real un = ux * nx + uy * ny + uz * nz;
-            real vx = sx[k], vy = sy[k], vz = sz[k];
-            b->square[0][k] = vx * vx + vy * vy + vz * vz;
-            const real vn = vx * nx + vy * ny + vz * nz;
-            vx -= vn * nx;
-            vy -= vn * ny;
-            vz -= vn * nz;
-            b->square[1][k] = vx * vx + vy * vy + vz * vz;
-            sx[k] = masked(lasts, vx);
-            sy[k] = masked(lasts, vy);
-            sz[k] = masked(lasts, vz);
+            const struct rotated v = rotate_spring(nx, ny, nz, sx[k], sy[k], sz[k]);
+            b->square[0][k] = v.before;
+            b->square[1][k] = v.after;
+            sx[k] = masked(lasts, v.x);
+            sy[k] = masked(lasts, v.y);
+            sz[k] = masked(lasts, v.z);
             b->rate[0][k] = masked(lasts, m * (ux - un * nx));
             b->rate[1][k] = masked(lasts, m * (uy - un * ny));
             b->rate[2][k] = masked(lasts, m * (uz - un * nz));
@@ -129,16 +125,12 @@ INLINE void rotate_rolling_3d(const struct gb_model *model, struct terms t,
         }
         if (t.bridges) {
             const real_bits holds = lasts & bit_mask(deepest[k] > 0);
-            real px = qx[k], py = qy[k], pz = qz[k];
-            b->square[2][k] = px * px + py * py + pz * pz;
-            const real pn = px * nx + py * ny + pz * nz;
-            px -= pn * nx;
-            py -= pn * ny;
-            pz -= pn * nz;
-            b->square[3][k] = px * px + py * py + pz * pz;
-            qx[k] = masked(holds, px);
-            qy[k] = masked(holds, py);
-            qz[k] = masked(holds, pz);
+            const struct rotated q = rotate_spring(nx, ny, nz, qx[k], qy[k], qz[k]);
+            b->square[2][k] = q.before;
+            b->square[3][k] = q.after;
+            qx[k] = masked(holds, q.x);
+            qy[k] = masked(holds, q.y);
+            qz[k] = masked(holds, q.z);
             b->rate[4][k] = masked(holds, m * (dx - dn * nx));
             b->rate[5][k] = masked(holds, m * (dy - dn * ny));
             b->rate[6][k] = masked(holds, m * (dz - dn * nz));

@@ -98,6 +98,21 @@ INLINE real keep_length(real before, real after)
     return before * inverse_root(before * after);
 }
 
+/* A spring rotated into the tangent plane, but shorter by what was normal to it; its squares
+ * before and after. */
+struct rotated {
+    real x, y, z, before, after;
+};
+
+INLINE struct rotated rotate_spring(real nx, real ny, real nz, real x, real y, real z)
+{
+    const real before = x * x + y * y + z * z, along = x * nx + y * ny + z * nz;
+    x -= along * nx;
+    y -= along * ny;
+    z -= along * nz;
+    return (struct rotated){x, y, z, before, x * x + y * y + z * z};
+}
+
 /* Factor that cuts a spring of squared load load2 back to its cap; without viscous forces
  * slightly below it, so that no rounding error makes a spring at rest slide. */
 INLINE real cut_to(struct terms t, real cap, real load2, bool over)
