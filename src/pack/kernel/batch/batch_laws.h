@@ -194,8 +194,7 @@ INLINE struct pull equal_pull(const struct normal_law *law, real r)
     return (struct pull){law->strength, s * s * s * q * q};
 }
 
-/* law/law_unequal.h */
-
+/* Of unequal sizes; law/law_unequal.h. */
 INLINE struct pull unequal_pull(const struct normal_law *law, struct pair_size size,
                                 real h)
 {
