@@ -293,6 +293,10 @@
  * lie within one vibration.  More: a stage ends later. */
 #define GB_REST_CHECK_STEPS 256
 
+/* Time steps between two numberings of powder that is poured.  Fewer: each takes as long as
+ * some ten steps.  More: neighbours in space lie apart in memory, and steps take longer. */
+#define GB_RENUMBER_STEPS 4096
+
 /* Time steps between checks for particles outside the die, which are also made at each
  * point and at the end of a stage.  More: an escaped particle moves the bed before a guard
  * acts. */

@@ -65,19 +65,26 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
     }
     bed->smallest = HUGE_VAL;
     for (int64_t i = 0; i < count; i++) {
-        const double d = 2.0 * radius[i];
         bed->position[i][3] = radius[i];
-        bed->mass[i] = d * d * d;
-        bed->inverse_mass[i] = 1.0 / bed->mass[i];
-        bed->inverse_inertia[i] =
-            1.0 / (0.4 * bed->mass[i] * radius[i] * radius[i] * inertia_scale);
         bed->smallest = fmin(bed->smallest, radius[i]);
     }
+    gb_bed_weigh(bed);
     bed->skin = 0.1 * bed->smallest;
     bed->near_skin = 0.5 * bed->skin;
     gb_bed_set_law(bed, law);
     *out = bed;
     return true;
+}
+
+void gb_bed_weigh(struct gb_bed *bed)
+{
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double radius = bed->position[i][3], d = 2.0 * radius;
+        bed->mass[i] = d * d * d;
+        bed->inverse_mass[i] = 1.0 / bed->mass[i];
+        bed->inverse_inertia[i] =
+            1.0 / (0.4 * bed->mass[i] * radius * radius * bed->inertia_scale);
+    }
 }
 
 void gb_bed_destroy(struct gb_bed *bed)

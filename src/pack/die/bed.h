@@ -71,6 +71,9 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
                    double inertia_scale, struct gb_error *err);
 void gb_bed_destroy(struct gb_bed *bed); /* NULL is fine */
 
+/* Masses and moments of inertia of the present radii. */
+void gb_bed_weigh(struct gb_bed *bed);
+
 /* Replaces the law; all contacts lose their history. */
 void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law);
 

@@ -73,6 +73,7 @@ bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
     }
     bed->die = copy->die;
     bed->skin = copy->skin;
+    gb_bed_weigh(bed);   /* numbers may have changed */
     bed->listed = false; /* rebuilt at the next evaluation, from these: */
     return gb_bed_list_copy_touching(&bed->pairs, &copy->pairs, bed->count, err) &&
            gb_bed_list_copy_touching(&bed->walls, &copy->walls, bed->count, err) &&

@@ -59,8 +59,8 @@ static double *history(const struct gb_bed_contacts *contacts, int k)
     return plane[k];
 }
 
-static void copy_slot(struct gb_bed_contacts *to, int64_t slot,
-                      const struct gb_bed_contacts *from, int64_t old)
+void gb_bed_list_copy_slot(struct gb_bed_contacts *to, int64_t slot,
+                           const struct gb_bed_contacts *from, int64_t old)
 {
     for (int k = 0; k < GB_BED_HISTORY; k++) {
         history(to, k)[slot] = history(from, k)[old];
@@ -78,7 +78,7 @@ void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from
                 old++;
             }
             if (old < from->start[i + 1] && from->other[old] == to->other[slot]) {
-                copy_slot(&to->contacts, slot, &from->contacts, old);
+                gb_bed_list_copy_slot(&to->contacts, slot, &from->contacts, old);
             }
         }
     }
@@ -104,12 +104,23 @@ bool gb_bed_list_copy_touching(struct gb_bed_list *to, const struct gb_bed_list 
             if (from->contacts.normal[slot] >= 0.0) {
                 to->first[to->count] = from->first[slot];
                 to->other[to->count] = from->other[slot];
-                copy_slot(&to->contacts, to->count++, &from->contacts, slot);
+                gb_bed_list_copy_slot(&to->contacts, to->count++, &from->contacts, slot);
             }
         }
     }
     to->start[particles] = to->count;
     return true;
+}
+
+void gb_bed_list_start(struct gb_bed_list *list, int64_t particles)
+{
+    int64_t slot = 0;
+    for (int64_t i = 0; i <= particles; i++) {
+        while (slot < list->count && list->first[slot] < i) {
+            slot++;
+        }
+        list->start[i] = slot;
+    }
 }
 
 static void swap(struct gb_bed_list *a, struct gb_bed_list *b)
@@ -200,7 +211,7 @@ static void draw_pairs_of(struct gb_bed *bed, int64_t i, int64_t old, bool anew)
             copy_constants(&list->contacts, list->count++, &last->contacts, old);
         }
         if (known) {
-            copy_slot(&list->contacts, list->count - 1, &last->contacts, old);
+            gb_bed_list_copy_slot(&list->contacts, list->count - 1, &last->contacts, old);
         }
     }
 }

@@ -17,6 +17,13 @@ bool gb_bed_list_draw(struct gb_bed *bed, struct gb_error *err);
 void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
                           int64_t particles);
 
+/* Gives a contact the history of another one. */
+void gb_bed_list_copy_slot(struct gb_bed_contacts *to, int64_t slot,
+                           const struct gb_bed_contacts *from, int64_t old);
+
+/* Fills in `start` of a list whose contacts are sorted. */
+void gb_bed_list_start(struct gb_bed_list *list, int64_t particles);
+
 /* The touching contacts of a list, with their histories. */
 bool gb_bed_list_copy_touching(struct gb_bed_list *to, const struct gb_bed_list *from,
                                int64_t particles, struct gb_error *err);

@@ -2,6 +2,9 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
+
+#include <gsl/gsl_sort.h>
 
 #include "base/alloc.h"
 #include "pack/cell/record_checks.h"
@@ -55,19 +58,54 @@ static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
                            err);
 }
 
-/* Radii are given by the parameters; those of the record must be equal. */
-static bool check_positions(const struct gb_bed *bed, const double *mass,
-                            struct gb_error *err)
+static bool finite_positions(const struct gb_bed *bed)
 {
     for (int64_t i = 0; i < bed->count; i++) {
         const double *x = bed->position[i];
-        const double d = 2.0 * x[3];
-        const double far = fabs(x[0]) + fabs(x[1]) + fabs(x[2]);
-        if (!(far < 1e9) || fabs(d * d * d - mass[i]) > 1e-9 * mass[i]) {
-            return gb_record_checks_out_of_range("bed/place", err);
+        if (!(fabs(x[0]) + fabs(x[1]) + fabs(x[2]) < 1e9 && x[3] > 0.0)) {
+            return false;
         }
     }
     return true;
+}
+
+/* The same powder, under any numbers: sorted masses are equal. */
+static bool equal_masses(const double *a, const double *b, int64_t count)
+{
+    for (int64_t i = 0; i < count; i++) {
+        if (!(fabs(a[i] - b[i]) <= 1e-9 * b[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Radii are those that the parameters give, in the order of the record. */
+static bool accept_radii(struct gb_bed *bed, struct gb_error *err)
+{
+    const size_t count = (size_t)bed->count;
+    double *given = gb_alloc_array(2 * count, sizeof *given, err);
+    if (!given) {
+        return false;
+    }
+    double *recorded = given + count;
+    memcpy(given, bed->mass, count * sizeof *given);
+    gb_bed_weigh(bed);
+    memcpy(recorded, bed->mass, count * sizeof *recorded);
+    gsl_sort(given, 1, count);
+    gsl_sort(recorded, 1, count);
+    const bool equal = equal_masses(recorded, given, bed->count);
+    gb_alloc_free(given);
+    return equal || gb_record_checks_out_of_range("bed/place", err);
+}
+
+static bool accept_positions(struct gb_bed *bed, const struct gb_record *record,
+                             struct gb_error *err)
+{
+    if (!finite_positions(bed)) {
+        return gb_record_checks_out_of_range("bed/place", err);
+    }
+    return !record->loading || accept_radii(bed, err);
 }
 
 /* Sorted contacts of existing particles. */
@@ -86,17 +124,6 @@ static bool check_list(const struct gb_bed_list *list, int64_t count,
         }
     }
     return true;
-}
-
-static void start_list(struct gb_bed_list *list, int64_t count)
-{
-    int64_t slot = 0;
-    for (int64_t i = 0; i <= count; i++) {
-        while (slot < list->count && list->first[slot] < i) {
-            slot++;
-        }
-        list->start[i] = slot;
-    }
 }
 
 /* A list of touching contacts only. */
@@ -133,7 +160,7 @@ static bool exchange_list(struct gb_bed *bed, enum gb_bed_partner partner,
     if (!check_list(list, bed->count, partner, name[0], err)) {
         return false;
     }
-    start_list(list, bed->count);
+    gb_bed_list_start(list, bed->count);
     return true;
 }
 
@@ -161,7 +188,7 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
            rows(bed, record, "bed/spin", "1/T", bed->spin, err) &&
            rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
            rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&
-           check_positions(bed, bed->mass, err) &&
+           accept_positions(bed, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_PARTICLE, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err) &&
            record_ejection(bed, record, err) && gb_bed_welds_record(bed, record, err);

@@ -10,11 +10,6 @@
  * packings of a hundred million. */
 enum { BITS = 9 };
 
-struct entry {
-    uint64_t key;
-    int64_t particle;
-};
-
 uint64_t gb_hilbert_index(const uint32_t *cell, int n, int bits)
 {
     uint32_t x[3] = {0};
@@ -51,9 +46,14 @@ uint64_t gb_hilbert_index(const uint32_t *cell, int n, int bits)
 
 static int compare(const void *a, const void *b)
 {
-    const struct entry *x = a, *y = b;
+    const struct gb_hilbert_entry *x = a, *y = b;
     return x->key != y->key ? (x->key > y->key) - (x->key < y->key)
                             : (x->particle > y->particle) - (x->particle < y->particle);
+}
+
+void gb_hilbert_order(struct gb_hilbert_entry *entry, int64_t count)
+{
+    qsort(entry, (size_t)count, sizeof *entry, compare);
 }
 
 static uint64_t key_of(const double x[3], int dimension, double longest)
@@ -80,14 +80,15 @@ bool gb_hilbert_sort(const struct gb_model *model, double *position, struct gb_e
     if (model->polydisperse) {
         return true;
     }
-    struct entry *order = gb_alloc_array(n, sizeof *order, err);
+    struct gb_hilbert_entry *order = gb_alloc_array(n, sizeof *order, err);
     double *sorted = gb_alloc_array(3 * n, sizeof *sorted, err);
     const bool room = order && sorted;
     for (int64_t i = 0; room && i < count; i++) {
-        order[i] = (struct entry){key_of(position + 3 * i, dimension, longest), i};
+        order[i] = (struct gb_hilbert_entry){
+            key_of(position + 3 * i, dimension, longest), i};
     }
     if (room) {
-        qsort(order, n, sizeof *order, compare);
+        gb_hilbert_order(order, count);
         for (int64_t i = 0; i < count; i++) {
             memcpy(sorted + 3 * i, position + 3 * order[i].particle, 3 * sizeof *sorted);
         }

@@ -23,4 +23,13 @@ bool gb_hilbert_sort(const struct gb_model *model, double *position,
  * Source: Skilling, AIP Conf. Proc. 707, 381 (2004). */
 uint64_t gb_hilbert_index(const uint32_t *cell, int n, int bits);
 
+/* Particles and where the curve passes them. */
+struct gb_hilbert_entry {
+    uint64_t key;
+    int64_t particle;
+};
+
+/* Sorts by key, and by particle where keys are equal. */
+void gb_hilbert_order(struct gb_hilbert_entry *entry, int64_t count);
+
 #endif

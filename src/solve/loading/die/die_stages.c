@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/die/bed_order.h"
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 #include "solve/loading/die/die_cycle.h"
@@ -198,11 +199,22 @@ static enum gb_step_outcome check_cycle(struct gb_die_stages *stages, struct gb_
                : GB_STEP_POINT;
 }
 
+/* Powder that is poured mixes: neighbours in space become neighbours in memory again. */
+static bool follow_flow(const struct gb_die_stages *stages, struct gb_bed *bed,
+                        struct gb_error *err)
+{
+    return stages->now.stage != GB_DIE_STAGES_POUR ||
+           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_renumber(bed, err);
+}
+
 static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_bed *bed,
                                       char *text, size_t size, struct gb_error *err)
 {
     struct gb_die_progress *now = &stages->now;
     char why[sizeof err->text];
+    if (!follow_flow(stages, bed, err)) {
+        return GB_STEP_STOPPED;
+    }
     if (!gb_leapfrog_step(&now->leapfrog, bed, err)) {
         snprintf(why, sizeof why, "%s", err->text);
         return err->code == GB_ERR_GUARD
