@@ -209,9 +209,6 @@ const char *gb_die_scene_note(const struct gb_model *model, int index, char *buf
         }
         snprintf(buffer, size, "cycle ends at full pressure; die.cycle = full continues");
         return buffer;
-    case 5:
-        snprintf(buffer, size, "threads: one; a die is swept by a single core");
-        return buffer;
     default:
         return NULL;
     }

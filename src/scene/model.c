@@ -153,7 +153,6 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     numerics->cutoff = fmax(numerics->cutoff, contacts_only ? 1.0 : GB_CUTOFF_MIN);
     numerics->skin =
         gb_loading_kind_at(model->kind)->follows_time ? GB_SKIN_DYNAMIC : GB_SKIN;
-    numerics->threads = params->threads > 0 ? (int)params->threads : 0;
     numerics->max_evaluations =
         params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MAX;
 }
@@ -288,6 +287,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .single_contact = params->single_contact,
         .r_meso =
             params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
+        .numerics.threads = params->threads > 0 ? (int)params->threads : 0,
         .pascal_per_stress = params->young_pa,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,

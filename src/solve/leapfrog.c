@@ -5,7 +5,7 @@
 
 #include "base/portable.h"
 #include "law/critical_step.h"
-#include "pack/kernel/bed_motion.h"
+#include "pack/die/bed_drift.h"
 #include "scene/tolerances.h"
 
 void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
@@ -63,12 +63,10 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
         }
         leapfrog->step = next_step(leapfrog, bed);
     }
-    leapfrog->moved2 = gb_bed_motion_drift(
-        bed->position, (const gb_bed_row *)bed->velocity,
-        (const gb_bed_row *)bed->listed_position, bed->count, leapfrog->step);
+    const double deviation2 = gb_bed_drift(bed, leapfrog->step);
     bed->die.punch_position += leapfrog->step * bed->die.punch_velocity;
     bed->die.top += leapfrog->step * bed->die.side_velocity;
-    if (!gb_bed_evaluate(bed, leapfrog->step, leapfrog->moved2, err)) {
+    if (!gb_bed_evaluate_blocks(bed, leapfrog->step, deviation2, err)) {
         return false;
     }
     const double next = next_step(leapfrog, bed), half = 0.5 * (leapfrog->step + next);
@@ -79,7 +77,7 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
                                           .step = half,
                                           .gravity = leapfrog->gravity,
                                           .drag = leapfrog->drag};
-    leapfrog->fastest = gb_bed_motion_kick(bed->velocity, bed->spin, bed->count, &by);
+    leapfrog->fastest = gb_bed_kick(bed, &by);
     if (leapfrog->punch_mass > 0.0) {
         bed->die.punch_velocity +=
             half * (bed->tally.punch - leapfrog->load) / leapfrog->punch_mass;

@@ -17,7 +17,6 @@ struct gb_leapfrog {
      * its speed. */
     double punch_mass, load;
     double step;    /* last one taken */
-    double moved2;  /* bound of the squared displacement since the lists were made */
     double fastest; /* bound of the speed of a particle */
 };
 

@@ -245,7 +245,7 @@ static void test_transfer(void)
 {
     enum { ROWS = 40, COLUMNS = 5 };
     gb_bed_row row[COLUMNS][ROWS], out[2][2][ROWS];
-    int32_t first[GB_BED_BATCH], other[GB_BED_BATCH];
+    int32_t first[GB_BED_BATCH], other[GB_BED_BATCH], target[GB_BED_BATCH];
     struct gb_bed_batch batch[2];
     for (int c = 0; c < COLUMNS; c++) {
         for (int i = 0; i < ROWS; i++) {
@@ -257,6 +257,7 @@ static void test_transfer(void)
     for (int k = 0; k < GB_BED_BATCH; k++) {
         first[k] = k * 7 % ROWS;
         other[k] = (k * 11 + 3) % ROWS;
+        target[k] = (k * 13 + 1) % ROWS;
     }
     for (int n = 1; n <= GB_BED_BATCH; n++) {
         for (int friction = 0; friction < 2; friction++) {
@@ -273,6 +274,7 @@ static void test_transfer(void)
                                                  .torque = out[wide][1],
                                                  .first = first,
                                                  .other = other,
+                                                 .target = target,
                                                  .friction = friction};
                 batch[wide].n = n;
                 transfer.gather(&rows, &batch[wide]);

@@ -3,28 +3,16 @@
 #include <math.h>
 #include <string.h>
 
-#include <glib.h>
-
 #include "base/alloc.h"
 #include "base/team/team.h"
 #include "base/vec.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/list/blocks.h"
+#include "scene/thread_count.h"
 
-/* Particles per thread below which a second thread costs more than it gains; above it the
- * team finds out (base/team/team_pace.h). */
-enum { PARTICLES_PER_THREAD = 500 };
-_Static_assert((int)PARTICLES_PER_THREAD * 17 / 16 >= (int)GB_BLOCKS_SIZE,
+_Static_assert((int)GB_PARTICLES_PER_THREAD * 17 / 16 >= (int)GB_BLOCKS_SIZE,
                "hardly a thread is left without a block");
-
-static int thread_count(const struct gb_model *model)
-{
-    const int64_t useful = model->count / PARTICLES_PER_THREAD;
-    const int64_t cores = g_get_num_processors(); /* that this process may use */
-    const int64_t automatic = useful < 1 ? 1 : useful < cores ? useful : cores;
-    return model->numerics.threads > 0 ? model->numerics.threads : (int)automatic;
-}
 
 static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
                         const double *position, struct gb_error *err)
@@ -39,7 +27,7 @@ static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
     engine->tally = gb_alloc_array(blocks, sizeof *engine->tally, err);
     engine->block_cost = gb_alloc_array(blocks + 1, sizeof *engine->block_cost, err);
     if (!engine->check || !engine->tally || !engine->block_cost ||
-        !gb_team_create(&engine->team, thread_count(model), err) ||
+        !gb_team_create(&engine->team, gb_thread_count(model), err) ||
         !gb_particles_init(&engine->particles, model, position, err) ||
         !gb_neighbour_list_init(
             &engine->list, model->count,

@@ -4,22 +4,30 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/team/team.h"
 #include "pack/die/bed_list.h"
-#include "pack/die/bed_walls.h"
+#include "pack/die/bed_sweep.h"
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 
-/* Evaluations to aim at between two builds of the candidates, which cost a few tens of
+/* Evaluations to aim at between two builds of the candidates, which cost some ten
  * evaluations, and between two lists drawn from them, which cost less than one. */
-static const double candidates_last = 250.0, list_lasts = 12.0;
-/* Skins over the smallest radius, at least and at most. */
-static const double skin_least = 0.01, skin_most = 2.0, near_least = 0.002;
+static const double candidates_last = 400.0, list_lasts = 24.0;
+/* Skins over the smallest radius, at least and at most; near_skin over the skin, at most, and
+ * over twice the deviation that is expected. */
+static const double skin_least = 0.01, skin_most = 4.0, near_least = 0.002;
+static const double near_most = 0.25, near_skin_spare = 1.5;
+
+static double square(const double x[3])
+{
+    return x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+}
 
 static bool allocate(struct gb_bed *bed, struct gb_error *err)
 {
     gb_bed_row **const rows[] = {
-        &bed->position, &bed->velocity,       &bed->spin,           &bed->force,
-        &bed->torque,   &bed->built_position, &bed->listed_position};
+        &bed->position,       &bed->velocity,        &bed->spin,
+        &bed->built_position, &bed->listed_position, &bed->listed_velocity};
     struct gb_bed_list *const lists[] = {&bed->pairs, &bed->previous_pairs, &bed->walls,
                                          &bed->previous_walls};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
@@ -35,7 +43,8 @@ static bool allocate(struct gb_bed *bed, struct gb_error *err)
         }
     }
     bed->counts = gb_alloc_array((size_t)bed->count, sizeof *bed->counts, err);
-    if (!bed->counts) {
+    if (!bed->counts || !gb_bed_blocks_init(&bed->blocks, bed->count, err) ||
+        !gb_bed_list_make_rows(bed, err)) {
         return false;
     }
     double **const numbers[] = {&bed->mass, &bed->inverse_mass, &bed->inverse_inertia};
@@ -76,6 +85,28 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
     return true;
 }
 
+bool gb_bed_use_threads(struct gb_bed *bed, int threads, struct gb_error *err)
+{
+    gb_team_destroy(bed->team);
+    return gb_team_create(&bed->team, threads, err);
+}
+
+void gb_bed_run_blocks(struct gb_bed *bed, gb_team_item *work, void *data)
+{
+    gb_team_run_costs(bed->team, bed->blocks.count, bed->blocks.cost, work, data);
+}
+
+int64_t gb_bed_wall_rows(const struct gb_bed *bed, int64_t b)
+{
+    const int64_t even = (bed->count + 1) / 2 * 2; /* a block has its cache lines */
+    return even + b * GB_DIE_WALLS;
+}
+
+int64_t gb_bed_crossing_rows(const struct gb_bed *bed)
+{
+    return gb_bed_wall_rows(bed, bed->blocks.count);
+}
+
 void gb_bed_weigh(struct gb_bed *bed)
 {
     for (int64_t i = 0; i < bed->count; i++) {
@@ -99,7 +130,11 @@ void gb_bed_destroy(struct gb_bed *bed)
     gb_alloc_free(bed->torque);
     gb_alloc_free(bed->built_position);
     gb_alloc_free(bed->listed_position);
+    gb_alloc_free(bed->listed_velocity);
     gb_alloc_free(bed->counts);
+    gb_alloc_free(bed->near);
+    gb_bed_blocks_finish(&bed->blocks);
+    gb_team_destroy(bed->team);
     gb_alloc_free(bed->mass);
     gb_alloc_free(bed->inverse_mass);
     gb_alloc_free(bed->inverse_inertia);
@@ -134,42 +169,45 @@ void gb_bed_invalidate_lists(struct gb_bed *bed)
     bed->listed = false;
 }
 
-/* A skin that would have lasted as long as it should.  No force depends on it: pairs that do
- * not touch add exact zeros in an order that is the same for any list. */
-static double adapted(double skin, double lasted, double wanted)
+/* The candidates' skin that would have lasted as long as it should.  No force depends on it:
+ * pairs that do not touch add exact zeros in an order that is the same for any list. */
+static void adapt_skin(struct gb_bed *bed)
 {
-    return lasted > 0.0 ? skin * fmin(fmax(wanted / lasted, 0.5), 2.0) : skin;
+    const double lasted = (double)(bed->evaluations - bed->built_evaluation);
+    if (bed->listed && lasted > 0.0) {
+        bed->skin *= fmin(fmax(candidates_last / lasted, 0.5), 2.0);
+    }
+    bed->skin =
+        fmin(fmax(bed->skin, skin_least * bed->smallest), skin_most * bed->smallest);
 }
 
-static void adapt_skins(struct gb_bed *bed, bool candidates)
+/* That of the list from the deviation at its age: steady pushes deviate with its square. */
+static void adapt_near_skin(struct gb_bed *bed, double deviation)
 {
-    const double built = (double)(bed->evaluations - bed->built_evaluation);
-    const double listed = (double)(bed->evaluations - bed->listed_evaluation);
-    if (bed->listed && candidates) {
-        bed->skin = fmin(
-            fmax(adapted(bed->skin, built, candidates_last), skin_least * bed->smallest),
-            skin_most * bed->smallest);
+    const double share = bed->listed_age / bed->listed_time;
+    if (bed->listed && share > 0.0 && deviation < HUGE_VAL) {
+        const double wanted = near_skin_spare * 2.0 * deviation / (share * share);
+        bed->near_skin = fmin(fmax(wanted, 0.5 * bed->near_skin), 2.0 * bed->near_skin);
     }
-    if (bed->listed) {
-        bed->near_skin =
-            fmax(adapted(bed->near_skin, listed, list_lasts), near_least * bed->smallest);
-    }
-    bed->near_skin = fmin(bed->near_skin, 0.5 * bed->skin);
+    bed->near_skin =
+        fmin(fmax(bed->near_skin, near_least * bed->smallest), near_most * bed->skin);
 }
 
-/* The farthest that a particle has moved since the candidates were built. */
-static double moved_since_build(const struct gb_bed *bed)
+/* The farthest that a particle has moved since the candidates were built, and the greatest
+ * speed. */
+static void find_fastest(const struct gb_bed *bed, double *moved, double *speed)
 {
-    double most2 = 0.0;
+    double most2 = 0.0, speed2 = 0.0;
     for (int64_t i = 0; i < bed->count; i++) {
-        double moved2 = 0.0;
+        double by[3];
         for (int k = 0; k < 3; k++) {
-            const double moved = bed->position[i][k] - bed->built_position[i][k];
-            moved2 += moved * moved;
+            by[k] = bed->position[i][k] - bed->built_position[i][k];
         }
-        most2 = fmax(most2, moved2);
+        most2 = fmax(most2, square(by));
+        speed2 = fmax(speed2, square(bed->velocity[i]));
     }
-    return sqrt(most2);
+    *moved = sqrt(most2);
+    *speed = sqrt(speed2);
 }
 
 /* True while no pair and no wall is missed, if nothing has moved farther than `moved` since
@@ -183,21 +221,8 @@ static bool candidates_hold(const struct gb_bed *bed, double moved)
            (bed->die.bore != GB_DIE_BORE_OPEN || moved + top < bed->skin);
 }
 
-/* Lists were made of the present positions. */
-static void note_listed(struct gb_bed *bed, double built_moved)
+static void note_built(struct gb_bed *bed)
 {
-    memcpy(bed->listed_position, bed->position,
-           (size_t)bed->count * sizeof *bed->position);
-    bed->listed_evaluation = bed->evaluations;
-    bed->built_moved = built_moved;
-}
-
-static bool rebuild(struct gb_bed *bed, struct gb_error *err)
-{
-    adapt_skins(bed, true);
-    if (!gb_bed_list_rebuild(bed, err)) {
-        return false;
-    }
     memcpy(bed->built_position, bed->position,
            (size_t)bed->count * sizeof *bed->position);
     bed->punch_built_position = bed->die.punch_position;
@@ -205,67 +230,73 @@ static bool rebuild(struct gb_bed *bed, struct gb_error *err)
     bed->built_evaluation = bed->evaluations;
     bed->listed = true;
     bed->rebuilds++;
-    note_listed(bed, 0.0);
+}
+
+/* Lists were made of the present positions. */
+static void note_listed(struct gb_bed *bed)
+{
+    const size_t bytes = (size_t)bed->count * sizeof *bed->position;
+    memcpy(bed->listed_position, bed->position, bytes);
+    memcpy(bed->listed_velocity, bed->velocity, bytes);
+    bed->listed_evaluation = bed->evaluations;
+    bed->listed_age = 0.0;
+}
+
+static bool make_lists(struct gb_bed *bed, double step, double deviation,
+                       struct gb_error *err)
+{
+    double moved = 0.0, speed = 0.0;
+    find_fastest(bed, &moved, &speed);
+    adapt_near_skin(bed, deviation);
+    bed->listed_time = list_lasts * step;
+    const double follows = speed * bed->listed_time + 0.5 * bed->near_skin;
+    if (!candidates_hold(bed, moved + follows)) {
+        adapt_skin(bed);
+        bed->skin = fmax(bed->skin, 4.0 * follows);
+        moved = 0.0;
+        if (!gb_bed_list_rebuild(bed, err)) {
+            return false;
+        }
+        note_built(bed);
+    } else if (!gb_bed_list_draw(bed, err)) {
+        return false;
+    }
+    bed->moved_most = moved + follows;
+    note_listed(bed);
     return true;
 }
 
-static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *err)
+static bool refresh_lists(struct gb_bed *bed, double step, double deviation2,
+                          struct gb_error *err)
 {
-    const double moved = sqrt(moved2);
-    if (2.0 * moved < bed->near_skin && candidates_hold(bed, bed->built_moved + moved)) {
-        return true;
-    }
-    const double built_moved = bed->listed ? moved_since_build(bed) : 0.0;
-    if (!candidates_hold(bed, built_moved + 0.5 * bed->near_skin)) {
-        return rebuild(bed, err);
-    }
-    adapt_skins(bed, false);
-    if (!gb_bed_list_draw(bed, err)) {
-        return false;
-    }
-    note_listed(bed, built_moved);
-    return true;
+    const double deviation = sqrt(deviation2);
+    const bool holds = bed->listed_age <= bed->listed_time &&
+                       2.0 * deviation < bed->near_skin &&
+                       candidates_hold(bed, bed->moved_most);
+    return holds || make_lists(bed, step, deviation, err);
 }
 
-static void sweep_pairs(struct gb_bed *bed, struct gb_bed_batch *b)
+bool gb_bed_evaluate_blocks(struct gb_bed *bed, double step, double deviation2,
+                            struct gb_error *err)
 {
-    struct gb_bed_rows rows = {.position = (const gb_bed_row *)bed->position,
-                               .velocity = (const gb_bed_row *)bed->velocity,
-                               .spin = (const gb_bed_row *)bed->spin,
-                               .force = bed->force,
-                               .torque = bed->torque,
-                               .friction = bed->law.mu > 0.0};
-    b->mu = bed->law.mu;
-    for (int64_t slot = 0; slot < bed->pairs.count; slot += b->n) {
-        const int64_t left = bed->pairs.count - slot;
-        b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
-        rows.first = bed->pairs.first + slot;
-        rows.other = bed->pairs.other + slot;
-        bed->transfer.gather(&rows, b);
-        bed->pair_kernel(&bed->law, b, &bed->pairs.contacts, slot);
-        bed->transfer.scatter(&rows, b);
-    }
-}
-
-bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2, struct gb_error *err)
-{
-    if (!refresh_lists(bed, moved2, err)) {
+    if (!refresh_lists(bed, step, deviation2, err)) {
         return false;
     }
-    struct gb_bed_batch batch;
-    batch.step = step;
-    batch.stiffest = 0.0;
-    bed->tally = (struct gb_bed_tally){0};
-    const size_t rows = (size_t)bed->count + GB_DIE_WALLS;
-    memset(bed->force, 0, rows * sizeof *bed->force);
-    memset(bed->torque, 0, rows * sizeof *bed->torque);
-    sweep_pairs(bed, &batch);
-    gb_bed_walls_sweep(bed, &batch);
-    bed->tally.stiffest = batch.stiffest;
+    gb_bed_sweep(bed, step);
     if (bed->welds) {
         gb_bed_welds_sweep(bed, step);
     }
     bed->evaluations++;
+    return true;
+}
+
+bool gb_bed_evaluate(struct gb_bed *bed, double step, double deviation2,
+                     struct gb_error *err)
+{
+    if (!gb_bed_evaluate_blocks(bed, step, deviation2, err)) {
+        return false;
+    }
+    gb_bed_sum_crossings(bed);
     return true;
 }
 
@@ -286,11 +317,6 @@ double gb_bed_solid_volume(const struct gb_bed *bed)
         sum += bed->mass[i]; /* d^3 */
     }
     return M_PI / 6.0 * sum;
-}
-
-static double square(const double row[4])
-{
-    return row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
 }
 
 struct gb_bed_kinetic_energy gb_bed_kinetic_energy(const struct gb_bed *bed)

@@ -4,7 +4,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/team/team.h"
 #include "greenbody/status.h"
+#include "pack/die/bed_blocks.h"
 #include "pack/die/die.h"
 #include "pack/kernel/bed_batch.h"
 #include "pack/structure/hgrid.h"
@@ -12,7 +14,8 @@
 /* Spheres of many sizes in a die.  Reduced units: length d (the reference diameter),
  * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
  * fourth of a row is the radius in `position` and 0 elsewhere.  Behind the rows of the
- * particles are those of the walls (enum gb_die_wall). */
+ * particles are those of the walls (enum gb_die_wall); `force` and `torque` have the walls
+ * once for each block, and then the crossings (pack/die/bed_blocks.h). */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */
@@ -21,16 +24,8 @@ struct gb_bed_list {
     int64_t *start; /* particles + 1 */
     int64_t room;
     int32_t *first, *other; /* of each slot */
+    int32_t *target;        /* row of `force` and `torque` for the second */
     struct gb_bed_contacts contacts;
-};
-
-/* Forces on the walls, and the stiffness that limits the time step; of the last
- * evaluation. */
-struct gb_bed_tally {
-    double stiffest;     /* largest omega^2 = k/m of (29) */
-    double floor, punch; /* force on them, positive in compression */
-    double side[2];      /* sum of f_x x, f_y y over the side's contacts */
-    double drag;         /* of the side on the powder, along -z */
 };
 
 struct gb_bed_welds;
@@ -46,18 +41,25 @@ struct gb_bed {
     gb_bed_kernel *pair_kernel, *wall_kernel;
     struct gb_bed_transfer transfer; /* of pairs */
     struct gb_bed_list pairs, walls;
-    struct gb_bed_tally tally;
+    struct gb_bed_tally tally; /* of the last evaluation */
+    struct gb_bed_blocks blocks;
+    struct gb_team *team;       /* NULL: one thread */
+    int64_t force_room;         /* rows of `force` and `torque` */
     struct gb_bed_welds *welds; /* of the compact; NULL: none */
     double smallest;            /* radius */
     int32_t *counts;            /* one per particle, for measures to count in */
     int64_t evaluations, rebuilds;
     /* The candidates, pairs with a gap below the skin, and the list of walls hold while
-     * nothing has moved further than half the skin since they were built; the list of pairs,
-     * those of them with a gap below near_skin, half of that since it was drawn. */
+     * nothing has moved further than half the skin since they were built.  The list of pairs
+     * has those of them that steady motion brings closer than near_skin in listed_time; it
+     * holds for that time, while nothing deviates from this motion by half of near_skin. */
     double skin, near_skin;
     struct gb_hgrid hgrid; /* the candidates */
-    gb_bed_row *built_position, *listed_position;
-    double built_moved; /* from built to listed_position, at most */
+    int32_t *near;         /* second particles of those that are drawn, by block */
+    int64_t near_room;
+    gb_bed_row *built_position, *listed_position, *listed_velocity;
+    double listed_age, listed_time; /* of the list of pairs: now, and at most */
+    double moved_most; /* since the candidates were built, while that list holds */
     double punch_built_position, top_built_position;
     int64_t built_evaluation, listed_evaluation; /* evaluations then */
     bool listed;
@@ -71,6 +73,17 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
                    double inertia_scale, struct gb_error *err);
 void gb_bed_destroy(struct gb_bed *bed); /* NULL is fine */
 
+/* At most this many threads; the bits do not depend on their number.  Errors: GB_ERR_MEMORY. */
+bool gb_bed_use_threads(struct gb_bed *bed, int threads, struct gb_error *err);
+
+/* work(data, b) for each block b, on the threads: always on the same shares of them, so that a
+ * core finds its rows where it left them. */
+void gb_bed_run_blocks(struct gb_bed *bed, gb_team_item *work, void *data);
+
+/* First row of `force` and `torque` for the walls of block b, and for the crossings. */
+int64_t gb_bed_wall_rows(const struct gb_bed *bed, int64_t b);
+int64_t gb_bed_crossing_rows(const struct gb_bed *bed);
+
 /* Masses and moments of inertia of the present radii. */
 void gb_bed_weigh(struct gb_bed *bed);
 
@@ -78,10 +91,16 @@ void gb_bed_weigh(struct gb_bed *bed);
 void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law);
 
 /* Forces and torques at the present positions and velocities; advances the history of
- * every contact over the step since the last evaluation.  moved2: largest squared
- * displacement of a particle from its listed_position.  Errors: GB_ERR_MEMORY. */
-bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2,
+ * every contact over the step since the last evaluation.  deviation2: largest squared
+ * deviation of a particle from steady motion since the pairs were listed
+ * (pack/die/bed_drift.h).  Errors: GB_ERR_MEMORY. */
+bool gb_bed_evaluate(struct gb_bed *bed, double step, double deviation2,
                      struct gb_error *err);
+
+/* The same, but the forces of pairs of two blocks on their second particles are still in the
+ * rows of the crossings: gb_bed_kick adds them. */
+bool gb_bed_evaluate_blocks(struct gb_bed *bed, double step, double deviation2,
+                            struct gb_error *err);
 
 /* Positions were replaced: the next evaluation rebuilds the lists. */
 void gb_bed_invalidate_lists(struct gb_bed *bed);

@@ -1,6 +1,7 @@
 #include "pack/die/bed_list.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 
@@ -11,7 +12,8 @@ bool gb_bed_list_init(struct gb_bed_list *list, int64_t particles, int64_t room,
     list->start = gb_alloc_array((size_t)particles + 1, sizeof *list->start, err);
     list->first = gb_alloc_array((size_t)room + 1, sizeof *list->first, err);
     list->other = gb_alloc_array((size_t)room + 1, sizeof *list->other, err);
-    if (!list->start || !list->first || !list->other ||
+    list->target = gb_alloc_array((size_t)room + 1, sizeof *list->target, err);
+    if (!list->start || !list->first || !list->other || !list->target ||
         !gb_bed_contacts_init(&list->contacts, room, err)) {
         gb_bed_list_finish(list);
         return false;
@@ -24,6 +26,7 @@ void gb_bed_list_finish(struct gb_bed_list *list)
     gb_alloc_free(list->start);
     gb_alloc_free(list->first);
     gb_alloc_free(list->other);
+    gb_alloc_free(list->target);
     gb_bed_contacts_finish(&list->contacts);
     *list = (struct gb_bed_list){0};
 }
@@ -39,16 +42,14 @@ static bool make_room(struct gb_bed_list *list, int64_t particles, int64_t count
     return gb_bed_list_init(list, particles, count + count / 4, err);
 }
 
-static void add_slot(struct gb_bed_list *list, int64_t i, int64_t other,
+static void set_slot(struct gb_bed_list *list, int64_t slot, int64_t i, int64_t other,
                      const struct gb_bed *bed)
 {
     const bool wall = list == &bed->walls;
     const double radius[2] = {bed->position[i][3],
                               wall ? HUGE_VAL : bed->position[other][3]};
     const double mass[2] = {bed->mass[i], wall ? HUGE_VAL : bed->mass[other]};
-    list->first[list->count] = (int32_t)i;
-    list->other[list->count] = (int32_t)other;
-    gb_bed_contacts_set(&list->contacts, list->count++, &bed->law, radius, mass);
+    gb_bed_contacts_set(&list->contacts, slot, &bed->law, radius, mass);
 }
 
 static double *history(const struct gb_bed_contacts *contacts, int k)
@@ -146,7 +147,12 @@ static bool list_walls(struct gb_bed *bed, struct gb_error *err)
                 gb_die_overlap(&bed->die, (enum gb_die_wall)wall, bed->position[i],
                                bed->position[i][3], unit);
             if (overlap > -bed->skin) {
-                add_slot(list, i, wall, bed);
+                const int64_t slot = list->count++;
+                list->first[slot] = (int32_t)i;
+                list->other[slot] = wall;
+                list->target[slot] =
+                    (int32_t)gb_bed_wall_rows(bed, i / GB_BED_BLOCK_SIZE) + wall;
+                set_slot(list, slot, i, wall, bed);
             }
         }
     }
@@ -170,13 +176,25 @@ static struct gb_hgrid_box box_of(const struct gb_bed *bed)
     return box;
 }
 
-/* True for a gap below near_skin, or one that is not a number. */
+/* Lists that are drawn from the candidates. */
+struct drawing {
+    struct gb_bed *bed;
+    bool anew;
+};
+
+/* True for a gap that steady motion makes smaller than near_skin in listed_time, or one that
+ * is not a number. */
 static bool near(const struct gb_bed *bed, int64_t i, int64_t j)
 {
     const double *a = bed->position[i], *b = bed->position[j];
-    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    const double reach = a[3] + b[3] + bed->near_skin;
-    return !(x * x + y * y + z * z >= reach * reach);
+    const double *v = bed->velocity[i], *w = bed->velocity[j];
+    double distance2 = 0.0, speed2 = 0.0;
+    for (int k = 0; k < 3; k++) {
+        distance2 += (a[k] - b[k]) * (a[k] - b[k]);
+        speed2 += (v[k] - w[k]) * (v[k] - w[k]);
+    }
+    const double reach = a[3] + b[3] + bed->near_skin + bed->listed_time * sqrt(speed2);
+    return !(distance2 >= reach * reach);
 }
 
 static void copy_constants(struct gb_bed_contacts *to, int64_t slot,
@@ -188,47 +206,160 @@ static void copy_constants(struct gb_bed_contacts *to, int64_t slot,
     to->transition[slot] = from->transition[old];
 }
 
-/* The near candidates of particle i.  Those that the last list has, from slot `old` on, keep
- * their histories; their constants as well unless these are to be set anew. */
-static void draw_pairs_of(struct gb_bed *bed, int64_t i, int64_t old, bool anew)
+/* The near candidates of a block: to bed->near, from the number of its first candidate on;
+ * those of each particle are counted in the list. */
+static void find_near(void *data, int64_t b)
 {
+    const struct drawing *drawing = data;
+    struct gb_bed *bed = drawing->bed;
+    struct gb_bed_block *block = &bed->blocks.block[b];
+    const int64_t begin = gb_bed_blocks_begin(b);
+    const int64_t end = gb_bed_blocks_end(bed->count, b);
+    const int64_t *candidates = bed->hgrid.start;
+    int32_t *found = bed->near + candidates[begin];
+    block->near = block->crossings = 0;
+    for (int64_t i = begin; i < end; i++) {
+        const int64_t before = block->near;
+        for (int64_t k = candidates[i]; k < candidates[i + 1]; k++) {
+            const int32_t j = bed->hgrid.other[k];
+            if (near(bed, i, j)) {
+                found[block->near++] = j;
+                block->crossings += j >= end;
+            }
+        }
+        bed->pairs.start[i + 1] = block->near - before;
+    }
+}
+
+/* Slots become those of the particles; returns their number. */
+static int64_t sum_starts(struct gb_bed_list *list, int64_t particles)
+{
+    list->start[0] = 0;
+    for (int64_t i = 0; i < particles; i++) {
+        list->start[i + 1] += list->start[i];
+    }
+    return list->start[particles];
+}
+
+/* A pair that the last list has, in slot `old`, keeps its history; its constants as well
+ * unless these are to be set anew. */
+static void write_pair(const struct drawing *drawing, int64_t slot, int64_t old)
+{
+    struct gb_bed *bed = drawing->bed;
+    struct gb_bed_list *list = &bed->pairs;
+    const struct gb_bed_contacts *last = &bed->previous_pairs.contacts;
+    if (old < 0 || drawing->anew) {
+        set_slot(list, slot, list->first[slot], list->other[slot], bed);
+    } else {
+        copy_constants(&list->contacts, slot, last, old);
+    }
+    if (old >= 0) {
+        gb_bed_list_copy_slot(&list->contacts, slot, last, old);
+    }
+}
+
+/* The slots of a block. */
+static void draw_block(void *data, int64_t b)
+{
+    const struct drawing *drawing = data;
+    struct gb_bed *bed = drawing->bed;
     struct gb_bed_list *list = &bed->pairs;
     const struct gb_bed_list *last = &bed->previous_pairs;
-    for (int64_t k = bed->hgrid.start[i]; k < bed->hgrid.start[i + 1]; k++) {
-        const int32_t j = bed->hgrid.other[k];
-        if (!near(bed, i, j)) {
-            continue;
+    const int64_t begin = gb_bed_blocks_begin(b);
+    const int64_t end = gb_bed_blocks_end(bed->count, b);
+    const int64_t crossing_rows = gb_bed_crossing_rows(bed);
+    const int32_t *found = bed->near + bed->hgrid.start[begin];
+    int64_t crossing = bed->blocks.crossing[b];
+    for (int64_t i = begin; i < end; i++) {
+        int64_t old = last->start[i];
+        for (int64_t slot = list->start[i]; slot < list->start[i + 1]; slot++) {
+            const int32_t j = *found++;
+            while (old < last->start[i + 1] && last->other[old] < j) {
+                old++;
+            }
+            const bool known = old < last->start[i + 1] && last->other[old] == j;
+            list->first[slot] = (int32_t)i;
+            list->other[slot] = list->target[slot] = j;
+            if (j >= end) {
+                bed->blocks.target[crossing] = j;
+                list->target[slot] = (int32_t)(crossing_rows + crossing++);
+            }
+            write_pair(drawing, slot, known ? old : -1);
         }
-        while (old < last->start[i + 1] && last->other[old] < j) {
-            old++;
+    }
+}
+
+static bool make_near_room(struct gb_bed *bed, struct gb_error *err)
+{
+    if (bed->near && bed->hgrid.pair_count <= bed->near_room) {
+        return true;
+    }
+    gb_alloc_free(bed->near);
+    bed->near_room = bed->hgrid.pair_count + bed->hgrid.pair_count / 4;
+    bed->near = gb_alloc_array((size_t)bed->near_room + 1, sizeof *bed->near, err);
+    return bed->near != NULL;
+}
+
+bool gb_bed_list_make_rows(struct gb_bed *bed, struct gb_error *err)
+{
+    const int64_t rows =
+        gb_bed_crossing_rows(bed) + bed->blocks.crossing[bed->blocks.count];
+    if (bed->force && rows <= bed->force_room) {
+        return true;
+    }
+    const size_t kept = bed->force ? (size_t)bed->count * sizeof *bed->force : 0;
+    gb_bed_row *const old[2] = {bed->force, bed->torque};
+    gb_bed_row **const all[2] = {&bed->force, &bed->torque};
+    gb_bed_row *grown[2];
+    bed->force_room = rows + rows / 4;
+    for (int k = 0; k < 2; k++) {
+        grown[k] = gb_alloc_array((size_t)bed->force_room, sizeof *grown[k], err);
+    }
+    if (!grown[0] || !grown[1]) {
+        gb_alloc_free(grown[0]);
+        gb_alloc_free(grown[1]);
+        bed->force_room = 0;
+        return false;
+    }
+    for (int k = 0; k < 2; k++) {
+        if (kept > 0) {
+            memcpy(grown[k], old[k], kept);
         }
-        const bool known = old < last->start[i + 1] && last->other[old] == j;
-        if (!known || anew) {
-            add_slot(list, i, j, bed);
-        } else {
-            list->first[list->count] = (int32_t)i;
-            list->other[list->count] = j;
-            copy_constants(&list->contacts, list->count++, &last->contacts, old);
-        }
-        if (known) {
-            gb_bed_list_copy_slot(&list->contacts, list->count - 1, &last->contacts, old);
-        }
+        gb_alloc_free(old[k]);
+        *all[k] = grown[k];
+    }
+    return true;
+}
+
+/* What a wall costs in pairs: its geometry is dearer. */
+enum { WALL_COST = 2 };
+
+static void weigh_blocks(struct gb_bed *bed)
+{
+    for (int64_t b = 0; b < bed->blocks.count; b++) {
+        const int64_t end = gb_bed_blocks_end(bed->count, b);
+        bed->blocks.cost[b + 1] =
+            end + bed->pairs.start[end] + WALL_COST * bed->walls.start[end];
     }
 }
 
 static bool draw_pairs(struct gb_bed *bed, bool anew, struct gb_error *err)
 {
     struct gb_bed_list *list = &bed->pairs;
+    struct drawing drawing = {bed, anew};
     swap(list, &bed->previous_pairs);
-    if (!make_room(list, bed->count, bed->hgrid.pair_count, err)) {
+    if (!make_room(list, bed->count, bed->hgrid.pair_count, err) ||
+        !make_near_room(bed, err)) {
         return false;
     }
-    list->count = 0;
-    for (int64_t i = 0; i < bed->count; i++) {
-        list->start[i] = list->count;
-        draw_pairs_of(bed, i, bed->previous_pairs.start[i], anew);
+    gb_bed_run_blocks(bed, find_near, &drawing);
+    list->count = sum_starts(list, bed->count);
+    if (!gb_bed_blocks_number(&bed->blocks, err) || !gb_bed_list_make_rows(bed, err)) {
+        return false;
     }
-    list->start[bed->count] = list->count;
+    gb_bed_run_blocks(bed, draw_block, &drawing);
+    gb_bed_blocks_enter(&bed->blocks);
+    weigh_blocks(bed);
     return true;
 }
 
@@ -244,5 +375,5 @@ bool gb_bed_list_rebuild(struct gb_bed *bed, struct gb_error *err)
     const struct gb_hgrid_box box = box_of(bed);
     return gb_hgrid_build(&bed->hgrid, &box, bed->count,
                           (const gb_bed_row *)bed->position, NULL, bed->skin, err) &&
-           draw_pairs(bed, anew, err) && list_walls(bed, err);
+           list_walls(bed, err) && draw_pairs(bed, anew, err);
 }

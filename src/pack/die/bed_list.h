@@ -10,6 +10,10 @@ void gb_bed_list_finish(struct gb_bed_list *list);
 /* Rebuilds candidates and lists of a bed; touching contacts keep their histories. */
 bool gb_bed_list_rebuild(struct gb_bed *bed, struct gb_error *err);
 
+/* Rows of `force` and `torque` for all particles, walls and crossings; those of the
+ * particles keep their values. */
+bool gb_bed_list_make_rows(struct gb_bed *bed, struct gb_error *err);
+
 /* Draws the list of pairs anew from the candidates. */
 bool gb_bed_list_draw(struct gb_bed *bed, struct gb_error *err);
 

@@ -76,11 +76,19 @@ static void add_side(struct gb_bed_tally *tally, const int32_t *walls,
     }
 }
 
-void gb_bed_walls_sweep(struct gb_bed *bed, struct gb_bed_batch *b)
+void gb_bed_walls_move(struct gb_bed *bed)
 {
-    gb_bed_row *wall_velocity = bed->velocity + bed->count;
-    const gb_bed_row *wall_force = (const gb_bed_row *)bed->force + bed->count;
-    struct gb_bed_tally *tally = &bed->tally;
+    gb_bed_row *velocity = bed->velocity + bed->count;
+    velocity[GB_DIE_PUNCH][2] = bed->die.punch_velocity;
+    velocity[GB_DIE_SIDE][2] = bed->die.side_velocity;
+}
+
+void gb_bed_walls_sweep(struct gb_bed *bed, int64_t block, struct gb_bed_batch *b)
+{
+    const gb_bed_row *wall_force =
+        (const gb_bed_row *)bed->force + gb_bed_wall_rows(bed, block);
+    struct gb_bed_tally *tally = &bed->blocks.block[block].tally;
+    const int64_t end = bed->walls.start[gb_bed_blocks_end(bed->count, block)];
     struct gb_bed_rows rows = {.position = (const gb_bed_row *)bed->position,
                                .velocity = (const gb_bed_row *)bed->velocity,
                                .spin = (const gb_bed_row *)bed->spin,
@@ -88,14 +96,14 @@ void gb_bed_walls_sweep(struct gb_bed *bed, struct gb_bed_batch *b)
                                .torque = bed->torque,
                                .from = (int32_t)bed->count,
                                .friction = bed->law.mu_wall > 0.0};
-    wall_velocity[GB_DIE_PUNCH][2] = bed->die.punch_velocity;
-    wall_velocity[GB_DIE_SIDE][2] = bed->die.side_velocity;
     b->mu = bed->law.mu_wall;
-    for (int64_t slot = 0; slot < bed->walls.count; slot += b->n) {
-        const int64_t left = bed->walls.count - slot;
-        b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
+    tally->side[0] = tally->side[1] = 0.0;
+    for (int64_t slot = bed->walls.start[gb_bed_blocks_begin(block)]; slot < end;
+         slot += b->n) {
+        b->n = end - slot < GB_BED_BATCH ? (int)(end - slot) : GB_BED_BATCH;
         rows.first = bed->walls.first + slot;
         rows.other = bed->walls.other + slot;
+        rows.target = bed->walls.target + slot;
         bed->transfer.gather(&rows, b);
         wall_geometry(&bed->die, rows.other, b);
         bed->wall_kernel(&bed->law, b, &bed->walls.contacts, slot);

@@ -7,6 +7,7 @@
 #include "pack/die/random_insertion.h"
 #include "pack/structure/assign_sizes.h"
 #include "scene/derived.h"
+#include "scene/thread_count.h"
 
 /* Density of the loosest filling for which an automatic height leaves room, with its
  * heap, and the densest one that a given height may ask for. */
@@ -100,6 +101,10 @@ bool gb_filling_allocate(struct gb_bed **out, const struct gb_params *params,
         size_die(&die, params, &model->die, volume, largest, err) &&
         gb_bed_create(out, params->count, radius, &die, &law, params->inertia_scale, err);
     gb_alloc_free(radius);
+    if (done && !gb_bed_use_threads(*out, gb_thread_count(model), err)) {
+        gb_bed_destroy(*out);
+        return false;
+    }
     return done;
 }
 

@@ -55,7 +55,8 @@ struct gb_bed_rows {
     const gb_bed_row *position, *velocity, *spin;
     gb_bed_row *force, *torque;
     const int32_t *first, *other;
-    int32_t from; /* 0 for pairs */
+    const int32_t *target; /* row that the force on the second is added to */
+    int32_t from;          /* 0 for pairs */
     bool friction;
 };
 typedef void gb_bed_gather(const struct gb_bed_rows *rows, struct gb_bed_batch *batch);

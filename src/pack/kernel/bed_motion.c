@@ -27,28 +27,31 @@ GB_SIMD_LOOP double square(const double *x)
 }
 
 GB_SIMD_LOOP void drift_loop(gb_bed_row *restrict x, const gb_bed_row *restrict v,
-                             const gb_bed_row *restrict from, int64_t count, double step,
-                             double *moved2)
+                             int64_t count, double step,
+                             const struct gb_bed_motion_course *course,
+                             double *deviation2)
 {
+    const gb_bed_row *restrict from = course->from, *restrict steady = course->velocity;
+    const double time = course->time;
     row most = {0.0, 0.0, 0.0, 0.0};
     for (int64_t i = 0; i < count; i++) {
         const row now = READ(x, i) + step * READ(v, i);
         ROW(x, i) = now;
-        LARGER_MAGNITUDE(now - READ(from, i), most);
+        LARGER_MAGNITUDE((now - READ(from, i)) - time * READ(steady, i), most);
     }
-    *moved2 = square((const double *)&most);
+    *deviation2 = square((const double *)&most);
 }
 GB_SIMD_WIDTHS(drift,
-               (gb_bed_row * x, const gb_bed_row *v, const gb_bed_row *from,
-                int64_t count, double step, double *moved2),
-               (x, v, from, count, step, moved2))
+               (gb_bed_row * x, const gb_bed_row *v, int64_t count, double step,
+                const struct gb_bed_motion_course *course, double *deviation2),
+               (x, v, count, step, course, deviation2))
 
-double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, const gb_bed_row *from,
-                           int64_t count, double step)
+double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, int64_t count, double step,
+                           const struct gb_bed_motion_course *course)
 {
-    double moved2;
-    drift(x, v, from, count, step, &moved2);
-    return moved2;
+    double deviation2;
+    drift(x, v, count, step, course, &deviation2);
+    return deviation2;
 }
 
 GB_SIMD_LOOP void kick_loop(gb_bed_row *restrict v, gb_bed_row *restrict w, int64_t count,

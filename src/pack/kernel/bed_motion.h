@@ -7,11 +7,17 @@
 
 /* Velocities and positions of the particles of a bed, in rows (bed_batch.h). */
 
+/* Steady motion that began at `from` a time ago. */
+struct gb_bed_motion_course {
+    const gb_bed_row *from, *velocity;
+    double time;
+};
+
 /* Central differences of positions x: x += step v.  Returns the sum of the squares of the
- * largest components of x - from, a bound of the squared displacements that needs no
+ * largest components of the new distance from a course, a bound of its squares that needs no
  * square of every particle. */
-double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, const gb_bed_row *from,
-                           int64_t count, double step);
+double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, int64_t count, double step,
+                           const struct gb_bed_motion_course *course);
 
 /* What changes velocities and spins. */
 struct gb_bed_motion_kick {

@@ -23,14 +23,15 @@ static void scatter_rest(const struct gb_bed_rows *rows, const struct gb_bed_bat
 {
     for (int k = done; k < b->n; k++) {
         const int32_t i = rows->first[k], j = rows->other[k] + rows->from;
+        const int32_t to = rows->target[k];
         const double ri = rows->position[i][3], rj = rows->position[j][3];
         for (int c = 0; c < 3; c++) {
             rows->force[i][c] += b->force[c][k];
-            rows->force[j][c] -= b->force[c][k];
+            rows->force[to][c] -= b->force[c][k];
         }
         for (int c = 0; c < 3 && rows->friction; c++) {
             rows->torque[i][c] += ri * b->moment[c][k];
-            rows->torque[j][c] += rj * b->moment[c][k];
+            rows->torque[to][c] += rj * b->moment[c][k];
         }
     }
 }
@@ -116,6 +117,7 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
                                       const struct gb_bed_batch *b)
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
+    const int32_t *restrict target = rows->target;
     const gb_bed_row *restrict position = rows->position;
     gb_bed_row *force_of = rows->force, *torque_of = rows->torque;
     const bool friction = rows->friction;
@@ -130,7 +132,7 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
         TRANSPOSE(force[0], force[1], force[2], force[3]);
         for (int p = 0; p < 4; p++) {
             *(v4 *)force_of[first[k + p]] += force[p];
-            *(v4 *)force_of[other[k + p] + from] -= force[p];
+            *(v4 *)force_of[target[k + p]] -= force[p];
         }
         if (!friction) {
             continue;
@@ -143,7 +145,7 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
             const int32_t i = first[k + p], j = other[k + p] + from;
             const v4 xi = ROW(position, i), xj = ROW(position, j);
             *(v4 *)torque_of[i] += SHUFFLE(xi, xi, 3, 3, 3, 3) * moment[p];
-            *(v4 *)torque_of[j] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
+            *(v4 *)torque_of[target[k + p]] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
         }
     }
     scatter_rest(rows, b, k);
