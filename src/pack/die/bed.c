@@ -16,7 +16,7 @@ static const double candidates_last = 400.0, list_lasts = 24.0;
 /* Skins over the smallest radius, at least and at most; near_skin over the skin, at most, and
  * over twice the deviation that is expected. */
 static const double skin_least = 0.01, skin_most = 4.0, near_least = 0.002;
-static const double near_most = 0.25, near_skin_spare = 1.5;
+static const double near_most = 0.25, near_margin = 1.5;
 
 static double square(const double x[3])
 {
@@ -186,7 +186,7 @@ static void adapt_near_skin(struct gb_bed *bed, double deviation)
 {
     const double share = bed->listed_age / bed->listed_time;
     if (bed->listed && share > 0.0 && deviation < HUGE_VAL) {
-        const double wanted = near_skin_spare * 2.0 * deviation / (share * share);
+        const double wanted = near_margin * 2.0 * deviation / (share * share);
         bed->near_skin = fmin(fmax(wanted, 0.5 * bed->near_skin), 2.0 * bed->near_skin);
     }
     bed->near_skin =
