@@ -92,7 +92,7 @@ static void test_list(void)
  * drawn often, from candidates that are built rarely. */
 static void test_moving_list(void)
 {
-    enum { STEPS = 1600, PERIOD = 400, SLOW = 300 };
+    enum { STEPS = 3280, PERIOD = 410, SLOW = 307 };
     const struct gb_bed_law law = bed_law();
     struct gb_error err = {0};
     struct gb_bed *bed = cluster(&law, 200);
