@@ -77,7 +77,7 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
                                           .step = half,
                                           .gravity = leapfrog->gravity,
                                           .drag = leapfrog->drag};
-    leapfrog->fastest = gb_bed_kick(bed, &by);
+    leapfrog->fastest = gb_bed_drift_kick(bed, &by);
     if (leapfrog->punch_mass > 0.0) {
         bed->die.punch_velocity +=
             half * (bed->tally.punch - leapfrog->load) / leapfrog->punch_mass;

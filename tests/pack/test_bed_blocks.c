@@ -63,7 +63,7 @@ static void move(struct gb_bed *bed, int steps)
                                               .inverse_inertia = bed->inverse_inertia,
                                               .step = step,
                                               .drag = 2.0};
-        gb_bed_kick(bed, &by);
+        gb_bed_drift_kick(bed, &by);
     }
 }
 
@@ -188,7 +188,7 @@ static void test_numbers(void)
     struct gb_error err = {0};
     move(bed, 40);
     move(other, 40);
-    g_assert_true(gb_bed_renumber(bed, &err));
+    g_assert_true(gb_bed_order_renumber(bed, &err));
     for (int n = 0; n < 3; n++) {
         const struct sums a = sums_of(bed), b = sums_of(other);
         const double *x = &a.force, *y = &b.force;
@@ -214,7 +214,7 @@ static void test_numbers_copy(void)
     const struct sums before = sums_of(bed);
     g_assert_true(gb_bed_copy_take(bed, &copy, &err));
     const uint64_t hash = gb_bed_copy_hash(bed);
-    g_assert_true(gb_bed_renumber(bed, &err));
+    g_assert_true(gb_bed_order_renumber(bed, &err));
     g_assert_cmpuint(gb_bed_copy_hash(bed), !=, hash);
     g_assert_true(gb_bed_copy_restore(bed, copy, &err));
     g_assert_cmpuint(gb_bed_copy_hash(bed), ==, hash);

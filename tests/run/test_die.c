@@ -161,9 +161,14 @@ static void spoil_number(struct gb_bed *bed)
     bed->position[11][1] = NAN;
 }
 
+/* The heaviest one: the wall throws others through the powder before the next check. */
 static void spoil_escape(struct gb_bed *bed)
 {
-    bed->position[11][0] = 2.0 * bed->die.radius;
+    int64_t heaviest = 0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        heaviest = bed->mass[i] > bed->mass[heaviest] ? i : heaviest;
+    }
+    bed->position[heaviest][0] = 2.0 * bed->die.radius;
 }
 
 static void spoil_punch(struct gb_bed *bed)
@@ -178,29 +183,32 @@ static void test_faults(void)
     check_fault(spoil_punch, "punch is below");
 }
 
-/* Time steps to a point at which no check for escapes is due anyway. */
+/* Time steps to a point some steps behind a check for escapes, which are counted from the
+ * first point on. */
 static int64_t steps_to_point(const struct gb_params *params)
 {
     struct gb_error err = {0};
     struct gb_experiment *experiment = NULL;
     g_assert_true(gb_experiment_create(&experiment, params, NULL, NULL, &err));
-    int64_t steps = 0;
-    int points = 0;
-    while (points < 3 || steps % GB_ESCAPE_CHECK_STEPS == 0) {
+    int64_t steps = 0, first = 0, behind = 0;
+    for (int points = 0; points < 3 || behind < 1 || behind > GB_ESCAPE_CHECK_STEPS / 2;
+         points++) {
         enum gb_step_outcome outcome = GB_STEP_MORE;
         while (outcome == GB_STEP_MORE) {
             outcome = gb_experiment_advance(experiment, 1, &err);
             steps++;
         }
         g_assert_cmpint(outcome, ==, GB_STEP_POINT); /* not its end */
-        points++;
+        first = points == 0 ? steps : first;
+        behind = (steps - first) % GB_ESCAPE_CHECK_STEPS;
     }
     gb_experiment_destroy(experiment);
     return steps;
 }
 
 /* No point is recorded with a particle outside, also where the lists, which a resumed run
- * builds at other steps, are not built anew. */
+ * builds at other steps, are not built anew.  Its contacts shorten the time step: the point
+ * is due a few steps later. */
 static void test_escape_at_point(void)
 {
     struct gb_error err = {0};
@@ -214,13 +222,17 @@ static void test_escape_at_point(void)
     take_events(experiment, events);
     g_string_truncate(events, 0);
     struct gb_bed *bed = experiment->loading->bed;
-    const double fall = bed->position[11][2] + 1e-3;
     const int64_t rebuilds = bed->rebuilds;
-    bed->position[11][2] -= fall;
-    bed->listed_position[11][2] -= fall;
-    g_assert_cmpint(gb_experiment_advance(experiment, 1, &err), ==, GB_STEP_MORE);
+    for (int k = 0; k < GB_ESCAPE_CHECK_STEPS / 2 - 1 && events->len == 0; k++) {
+        const double fall = bed->position[11][2] + 1e-3;
+        bed->position[11][2] -= fall;
+        bed->listed_position[11][2] -= fall;
+        bed->built_position[11][2] -= fall;
+        bed->velocity[11][2] = 0.0;
+        g_assert_cmpint(gb_experiment_advance(experiment, 1, &err), ==, GB_STEP_MORE);
+        take_events(experiment, events);
+    }
     g_assert_cmpint(bed->rebuilds, ==, rebuilds);
-    take_events(experiment, events);
     g_assert_nonnull(strstr(events->str, "left the die"));
     g_assert_cmpint(gb_bed_escaped(bed), ==, -1);
     g_string_free(events, TRUE);

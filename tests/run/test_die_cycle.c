@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include <glib.h>
+#include <gsl/gsl_statistics.h>
 
 #include "common/die.h"
 #include "pack/die/bed_copy.h"
@@ -252,12 +253,12 @@ struct unloading {
 };
 
 /* Pressed with damping, unloaded without any friction or damping. */
-static struct unloading unload(const char *normal, const char *time)
+static struct unloading unload(const char *normal, const char *time, const char *seed)
 {
     struct gb_error err = {0};
     const struct gb_params params =
         die_params("contact.mu_wall=0", normal, time, "material.hardening=0",
-                   "loading.time=40 us", "numerics.safety=0.2", CYCLE, NULL);
+                   "loading.time=40 us", "numerics.safety=0.2", seed, CYCLE, NULL);
     struct gb_experiment *experiment = create(&params);
     const struct gb_point *point = gb_experiment_point(experiment);
     struct unloading result = {0};
@@ -291,17 +292,38 @@ static struct unloading unload(const char *normal, const char *time)
     return result;
 }
 
+/* Medians of three beds: in one of ten a small sphere bounces between the punch and its
+ * neighbours, which adds a percent to the work. */
+struct unloading_shares {
+    double returned, stored; /* over what was stored, and over the work */
+    double springback;
+};
+
+static struct unloading_shares unload_three(const char *normal)
+{
+    static const char *const seed[] = {"structure.seed=1", "structure.seed=2",
+                                       "structure.seed=3"};
+    double returned[3], stored[3], springback[3];
+    for (int k = 0; k < 3; k++) {
+        const struct unloading one = unload(normal, "loading.unload_time=60 us", seed[k]);
+        returned[k] = one.returned / one.stored;
+        stored[k] = one.stored / one.work;
+        springback[k] = one.springback;
+    }
+    return (struct unloading_shares){gsl_stats_median(returned, 1, 3),
+                                     gsl_stats_median(stored, 1, 3),
+                                     gsl_stats_median(springback, 1, 3)};
+}
+
 /* Smooth elastic spheres give back all that they store, plastic contacts keep their
  * part. */
 static void test_work(void)
 {
-    const struct unloading hertz =
-        unload("contact.normal=hertz", "loading.unload_time=60 us");
-    const struct unloading plastic =
-        unload("contact.normal=storakers", "loading.unload_time=60 us");
-    g_assert_cmpfloat_with_epsilon(hertz.returned / hertz.stored, 1.0, 0.01);
-    g_assert_cmpfloat_with_epsilon(plastic.returned / plastic.stored, 1.0, 0.01);
-    g_assert_cmpfloat(plastic.stored / plastic.work, <, 0.95 * hertz.stored / hertz.work);
+    const struct unloading_shares hertz = unload_three("contact.normal=hertz");
+    const struct unloading_shares plastic = unload_three("contact.normal=storakers");
+    g_assert_cmpfloat_with_epsilon(hertz.returned, 1.0, 0.004);
+    g_assert_cmpfloat_with_epsilon(plastic.returned, 1.0, 0.004);
+    g_assert_cmpfloat(plastic.stored, <, 0.95 * hertz.stored);
     g_assert_cmpfloat(plastic.springback, <, hertz.springback);
 }
 

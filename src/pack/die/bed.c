@@ -250,7 +250,8 @@ static bool make_lists(struct gb_bed *bed, double step, double deviation,
     adapt_near_skin(bed, deviation);
     bed->listed_time = list_lasts * step;
     const double follows = speed * bed->listed_time + 0.5 * bed->near_skin;
-    if (!candidates_hold(bed, moved + follows)) {
+    /* the build tells of a position that is not a number */
+    if (isnan(deviation) || !candidates_hold(bed, moved + follows)) {
         adapt_skin(bed);
         bed->skin = fmax(bed->skin, 4.0 * follows);
         moved = 0.0;
@@ -296,7 +297,7 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double deviation2,
     if (!gb_bed_evaluate_blocks(bed, step, deviation2, err)) {
         return false;
     }
-    gb_bed_sum_crossings(bed);
+    gb_bed_sweep_sum(bed);
     return true;
 }
 

@@ -98,7 +98,7 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double deviation2,
                      struct gb_error *err);
 
 /* The same, but the forces of pairs of two blocks on their second particles are still in the
- * rows of the crossings: gb_bed_kick adds them. */
+ * rows of the crossings: gb_bed_drift_kick adds them. */
 bool gb_bed_evaluate_blocks(struct gb_bed *bed, double step, double deviation2,
                             struct gb_error *err);
 

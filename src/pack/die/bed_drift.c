@@ -35,7 +35,7 @@ static void kick_block(void *data, int64_t b)
     struct gb_bed *bed = motion->bed;
     const int64_t begin = gb_bed_blocks_begin(b);
     struct gb_bed_motion_kick by = motion->kick;
-    gb_bed_sum_block(bed, b);
+    gb_bed_sweep_sum_block(bed, b);
     by.force += begin;
     by.torque += begin;
     by.inverse_mass += begin;
@@ -68,7 +68,7 @@ double gb_bed_drift(struct gb_bed *bed, double step)
     return deviation2;
 }
 
-double gb_bed_kick(struct gb_bed *bed, const struct gb_bed_motion_kick *by)
+double gb_bed_drift_kick(struct gb_bed *bed, const struct gb_bed_motion_kick *by)
 {
     struct motion motion = {.bed = bed, .kick = *by};
     double fastest = 0.0;

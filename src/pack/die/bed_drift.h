@@ -11,6 +11,6 @@ double gb_bed_drift(struct gb_bed *bed, double step);
 
 /* After gb_bed_evaluate_blocks: forces are summed, then gb_bed_motion_kick of the rows of the
  * bed.  Returns a bound of the speeds. */
-double gb_bed_kick(struct gb_bed *bed, const struct gb_bed_motion_kick *by);
+double gb_bed_drift_kick(struct gb_bed *bed, const struct gb_bed_motion_kick *by);
 
 #endif

@@ -120,7 +120,7 @@ static bool rename_lists(struct gb_bed *bed, const int32_t *rank, struct gb_erro
                        bed->count, err);
 }
 
-bool gb_bed_renumber(struct gb_bed *bed, struct gb_error *err)
+bool gb_bed_order_renumber(struct gb_bed *bed, struct gb_error *err)
 {
     const size_t count = (size_t)bed->count;
     const struct lattice lattice = lattice_of(bed);

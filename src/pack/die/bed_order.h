@@ -7,6 +7,6 @@
  * neighbours in memory.  Contacts keep their histories; forces are those of the next
  * evaluation.  Not for a bed with welds, which name particles by number.
  * Errors: GB_ERR_MEMORY. */
-bool gb_bed_renumber(struct gb_bed *bed, struct gb_error *err);
+bool gb_bed_order_renumber(struct gb_bed *bed, struct gb_error *err);
 
 #endif

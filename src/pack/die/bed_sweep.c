@@ -62,7 +62,7 @@ static void sweep_block(void *data, int64_t b)
     bed->blocks.block[b].tally.stiffest = batch.stiffest;
 }
 
-void gb_bed_sum_block(struct gb_bed *bed, int64_t b)
+void gb_bed_sweep_sum_block(struct gb_bed *bed, int64_t b)
 {
     const struct gb_bed_blocks *blocks = &bed->blocks;
     const gb_bed_row *force = (const gb_bed_row *)bed->force + gb_bed_crossing_rows(bed);
@@ -97,10 +97,10 @@ static void sum_tallies(struct gb_bed *bed)
 
 static void sum_item(void *data, int64_t b)
 {
-    gb_bed_sum_block(data, b);
+    gb_bed_sweep_sum_block(data, b);
 }
 
-void gb_bed_sum_crossings(struct gb_bed *bed)
+void gb_bed_sweep_sum(struct gb_bed *bed)
 {
     gb_bed_run_blocks(bed, sum_item, bed);
 }

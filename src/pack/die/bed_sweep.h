@@ -9,7 +9,7 @@ void gb_bed_sweep(struct gb_bed *bed, double step);
 
 /* Then the forces on the second particles of pairs of two blocks: of those in block b, and of
  * all. */
-void gb_bed_sum_block(struct gb_bed *bed, int64_t b);
-void gb_bed_sum_crossings(struct gb_bed *bed);
+void gb_bed_sweep_sum_block(struct gb_bed *bed, int64_t b);
+void gb_bed_sweep_sum(struct gb_bed *bed);
 
 #endif

@@ -204,7 +204,7 @@ static bool follow_flow(const struct gb_die_stages *stages, struct gb_bed *bed,
                         struct gb_error *err)
 {
     return stages->now.stage != GB_DIE_STAGES_POUR ||
-           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_renumber(bed, err);
+           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_order_renumber(bed, err);
 }
 
 static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_bed *bed,
