@@ -64,6 +64,7 @@ static void add_scenes(struct gb_bench_output_rows *rows,
             GB_BENCH_MORE);
     add_fact(rows, "die at coordination", die->coordination, "");
     add_time(rows, "die: Hertz on one core", die->hertz, 1e-6, step);
+    add_time(rows, "die: Hertz on all cores", die->hertz_all, 1e-6, step);
     add_time(rows, "die: Hertz with friction", die->hertz_friction, 1e-6, step);
     add_time(rows, "die: Storakers", die->storakers, 1e-6, step);
     add_time(rows, "die: Storakers with friction", die->storakers_friction, 1e-6, step);

@@ -13,9 +13,17 @@
 #include "solve/leapfrog.h"
 #include "solve/loading/die/die_stages.h"
 
-/* Batches timed in a round, and steps in each: the median counts.  Processor time, because a bed
- * runs on one thread and other work on the machine comes and goes. */
-enum { BATCHES = 3, BATCH = 400, LAWS = 4 };
+/* Batches timed in a round, and steps in each: the median counts.  On one thread processor time,
+ * because other work on the machine comes and goes. */
+enum { BATCHES = 3, BATCH = 400 };
+
+/* A row of the table. */
+struct row {
+    const char *law;
+    double mu;
+    int threads;
+    struct gb_bench_figure *figure;
+};
 
 /* P3's powder; the fall is shortened, since only the speed matters. */
 static bool make_params(struct gb_params *params, const char *law, double mu,
@@ -66,14 +74,16 @@ static bool press(struct gb_die_stages *stages, struct gb_bed *bed, struct gb_er
     return how == GB_STEP_DONE;
 }
 
-/* Median time of a step under a law, the punch standing still where it is. */
-static bool time_law(struct gb_bed *bed, const char *law, double mu, double *seconds,
+/* Median time of a step of a row, the punch standing still where it is. */
+static bool time_row(struct gb_bed *bed, const struct row *row, double *seconds,
                      struct gb_error *err)
 {
+    double (*const clock_s)(void) = row->threads > 1 ? gb_clock_s : gb_clock_process_s;
     struct gb_params params;
     struct gb_leapfrog integrator;
     double batch[BATCHES];
-    if (!make_params(&params, law, mu, err)) {
+    if (!make_params(&params, row->law, row->mu, err) ||
+        !gb_bed_use_threads(bed, row->threads, err)) {
         return false;
     }
     const struct gb_bed_law frozen = gb_filling_compaction_law(&params);
@@ -81,41 +91,42 @@ static bool time_law(struct gb_bed *bed, const char *law, double mu, double *sec
     gb_leapfrog_init(&integrator, 0.5, 0.0);
     bed->die.punch_velocity = 0.0;
     for (int b = -1; b < BATCHES; b++) { /* the first one warms up */
-        const double start = gb_clock_process_s();
+        const double start = clock_s();
         for (int k = 0; k < BATCH; k++) {
             if (!gb_leapfrog_step(&integrator, bed, err)) {
                 return false;
             }
         }
-        batch[b < 0 ? 0 : b] = (gb_clock_process_s() - start) / BATCH;
+        batch[b < 0 ? 0 : b] = (clock_s() - start) / BATCH;
     }
     gsl_sort(batch, 1, BATCHES);
     *seconds = gsl_stats_median_from_sorted_data(batch, 1, BATCHES) / (double)bed->count;
     return true;
 }
 
-static bool time_laws(struct gb_bench_die *bench, struct gb_bed *bed,
+static bool time_rows(struct gb_bench_die *bench, struct gb_bed *bed,
                       struct gb_error *err)
 {
-    static const char *const law[LAWS] = {"hertz", "hertz", "storakers", "storakers"};
-    static const double mu[LAWS] = {0.0, 0.05, 0.0, 0.05};
-    struct gb_bench_figure *const figure[LAWS] = {&bench->hertz, &bench->hertz_friction,
-                                                  &bench->storakers,
-                                                  &bench->storakers_friction};
-    double seconds[LAWS][GB_BENCH_ROUNDS];
+    const int cores = (int)g_get_num_processors();
+    const struct row row[] = {{"hertz", 0.0, 1, &bench->hertz},
+                              {"hertz", 0.0, cores, &bench->hertz_all},
+                              {"hertz", 0.05, 1, &bench->hertz_friction},
+                              {"storakers", 0.0, 1, &bench->storakers},
+                              {"storakers", 0.05, 1, &bench->storakers_friction}};
+    double seconds[G_N_ELEMENTS(row)][GB_BENCH_ROUNDS];
     struct gb_contact_counts counts;
     gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
     bench->coordination = counts.coordination;
     bench->near = 2.0 * (double)bed->pairs.count / (double)bed->count;
     for (int round = 0; round < GB_BENCH_ROUNDS; round++) {
-        for (int l = 0; l < LAWS; l++) {
-            if (!time_law(bed, law[l], mu[l], &seconds[l][round], err)) {
+        for (size_t r = 0; r < G_N_ELEMENTS(row); r++) {
+            if (!time_row(bed, &row[r], &seconds[r][round], err)) {
                 return false;
             }
         }
     }
-    for (int l = 0; l < LAWS; l++) {
-        *figure[l] = gb_bench_figure_of(seconds[l], GB_BENCH_ROUNDS);
+    for (size_t r = 0; r < G_N_ELEMENTS(row); r++) {
+        *row[r].figure = gb_bench_figure_of(seconds[r], GB_BENCH_ROUNDS);
     }
     return true;
 }
@@ -133,7 +144,7 @@ bool gb_bench_die_run(struct gb_bench_die *bench, struct gb_error *err)
     if (done) {
         const struct gb_bed_law law = gb_filling_compaction_law(&params);
         done = gb_die_stages_create(&stages, &model.die, &law, err) &&
-               press(stages, bed, err) && time_laws(bench, bed, err);
+               press(stages, bed, err) && time_rows(bench, bed, err);
     }
     gb_die_stages_destroy(stages);
     gb_bed_destroy(bed);

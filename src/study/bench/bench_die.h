@@ -6,10 +6,11 @@
 #include "greenbody/status.h"
 #include "study/bench/bench_figure.h"
 
-/* Speed of a bed of 1751 spheres pressed to 50 MPa as in P3, on one core: one time step
- * (forces, histories, motion) per particle, s. */
+/* Speed of a bed of 1751 spheres pressed to 50 MPa as in P3, on one core and on all of them:
+ * one time step (forces, histories, motion) per particle, s. */
 struct gb_bench_die {
-    struct gb_bench_figure hertz, hertz_friction, storakers, storakers_friction;
+    struct gb_bench_figure hertz, hertz_all, hertz_friction, storakers,
+        storakers_friction;
     double coordination, near; /* contacts and listed pairs per particle */
 };
 
