@@ -196,7 +196,6 @@ static void check_bed(const struct bed_result *bed)
     g_assert_cmpfloat_with_epsilon(bed->height_um, 95.0, 2.0);
     g_assert_cmpfloat_with_epsilon(bed->whole, 0.62, 0.015);
     g_assert_cmpfloat_with_epsilon(balanced->whole[3], 0.66, 0.01);
-    g_assert_cmpfloat_with_epsilon(balanced->central[3], 0.70, 0.015);
     for (int k = 0; k < MARKS; k++) {
         g_assert_cmpfloat(balanced->central[k] - balanced->whole[k], >, 0.04);
         g_assert_cmpfloat(balanced->central[k] - balanced->whole[k], <, 0.07);
@@ -224,16 +223,19 @@ static double mean(const struct bed_result *bed, int model, int mark)
 }
 
 /* The density in the central sphere scatters by 0.005 from bed to bed, so that one of a few
- * beds leaves the range around P3's 0.66 to 0.69; their mean does not. */
+ * beds leaves the range around P3's 0.66 to 0.69, and 0.70 at 50 MPa; their mean does not. */
 static void check_central(const struct bed_result *bed)
 {
-    double sum = 0.0;
+    double poured = 0.0, pressed = 0.0;
     for (int b = 0; b < COMPARED; b++) {
-        sum += bed[b].central / COMPARED;
+        poured += bed[b].central / COMPARED;
+        pressed += bed[b].model[BALANCED].central[3] / COMPARED;
     }
-    g_test_message("poured density of the central sphere: %.4f", sum);
-    g_assert_cmpfloat(sum, >, 0.66);
-    g_assert_cmpfloat(sum, <, 0.69);
+    g_test_message("density of the central sphere: %.4f poured, %.4f at 50 MPa", poured,
+                   pressed);
+    g_assert_cmpfloat(poured, >, 0.66);
+    g_assert_cmpfloat(poured, <, 0.69);
+    g_assert_cmpfloat_with_epsilon(pressed, 0.70, 0.01);
 }
 
 /* Presses of one bed at two fidelities part by 0.001 to 0.003, their means do not. */
