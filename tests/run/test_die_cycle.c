@@ -71,7 +71,7 @@ static const struct gb_point *end_of(const struct cycle *cycle, int branch)
             return &cycle->point[k - 1];
         }
     }
-    g_error("no point of branch %d", branch);
+    g_error("no point of branch %d: %s", branch, cycle->events->str);
     return NULL;
 }
 
@@ -338,8 +338,10 @@ static struct janssen press_on_wall(double mu_wall, int seed)
     char friction[64], which[64];
     snprintf(friction, sizeof friction, "contact.mu_wall=%g", mu_wall);
     snprintf(which, sizeof which, "structure.seed=%d", seed);
+    /* a sphere that is squeezed from many sides needs a shorter step than its stiffest contact */
     const struct gb_params params =
-        die_params(friction, which, "contact.mu=0.5", "loading.time=100 us", NULL);
+        die_params(friction, which, "contact.mu=0.5", "loading.time=100 us",
+                   "numerics.safety=0.25", NULL);
     struct cycle cycle = run(&params, 1000);
     const struct gb_point *load = end_of(&cycle, GB_BRANCH_LOAD);
     const double ratio = load->floor_over_punch;
@@ -359,8 +361,7 @@ static struct janssen press_on_wall(double mu_wall, int seed)
 }
 
 /* The wall exerts at most the given friction, and all of it where the powder has slid far
- * enough: 0.2 to 0.9 of it in a single bed of 150 spheres, 0.5 to 0.7 in the mean of
- * six. */
+ * enough: 0.8 of it in beds of 150 spheres. */
 static void test_janssen(void)
 {
     enum { BEDS = 6 };
@@ -373,8 +374,8 @@ static void test_janssen(void)
             mean.exerted += bed.exerted / BEDS;
             mean.ratio += bed.ratio / BEDS;
         }
-        g_assert_cmpfloat(mean.exerted, >, 0.4 * mu_wall[k]);
-        g_assert_cmpfloat(mean.exerted, <, 0.8 * mu_wall[k]);
+        g_assert_cmpfloat(mean.exerted, >, 0.6 * mu_wall[k]);
+        g_assert_cmpfloat(mean.exerted, <, 0.9 * mu_wall[k]);
         g_assert_cmpfloat(mean.ratio, <, last);
         last = mean.ratio;
     }
