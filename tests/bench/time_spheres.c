@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "measure/observe_die.h"
+#include "pack/die/bed_order.h"
 #include "solve/leapfrog.h"
 #include "spheres.h"
 
@@ -41,7 +42,7 @@ static bool settle(struct gb_bed **bed, const GArray *spheres, struct gb_error *
         (*bed)->position[i][2] += 10.0 - low;
     }
     g_free(radius);
-    return done;
+    return done && gb_bed_order_renumber(*bed, err); /* LAMMPS sorts them as well */
 }
 
 /* Sum of force times distance over the contacts, divided by the dimension. */
