@@ -236,6 +236,9 @@ static void check_central(const struct bed_result *bed)
     g_assert_cmpfloat(poured, >, 0.66);
     g_assert_cmpfloat(poured, <, 0.69);
     g_assert_cmpfloat_with_epsilon(pressed, 0.70, 0.01);
+    for (int b = 0; b < COMPARED; b++) {
+        g_assert_cmpfloat_with_epsilon(bed[b].model[BALANCED].central[3], pressed, 0.015);
+    }
 }
 
 /* Presses of one bed at two fidelities part by 0.001 to 0.003, their means do not. */

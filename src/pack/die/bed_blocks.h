@@ -21,8 +21,7 @@ struct gb_bed_tally {
 struct gb_bed_block {
     _Alignas(64) struct gb_bed_tally tally;
     double deviation2, fastest; /* of the last step, pack/die/bed_drift.h */
-    int64_t near;               /* candidates that are drawn */
-    int64_t crossings; /* and those of them with a second particle in another block */
+    int64_t crossings;          /* listed pairs with a second particle in another block */
 };
 
 /* A pair of two blocks adds the force on its second particle to a row of its own, its

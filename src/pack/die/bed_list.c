@@ -217,17 +217,18 @@ static void find_near(void *data, int64_t b)
     const int64_t end = gb_bed_blocks_end(bed->count, b);
     const int64_t *candidates = bed->hgrid.start;
     int32_t *found = bed->near + candidates[begin];
-    block->near = block->crossings = 0;
+    int64_t count = 0;
+    block->crossings = 0;
     for (int64_t i = begin; i < end; i++) {
-        const int64_t before = block->near;
+        const int64_t before = count;
         for (int64_t k = candidates[i]; k < candidates[i + 1]; k++) {
             const int32_t j = bed->hgrid.other[k];
             if (near(bed, i, j)) {
-                found[block->near++] = j;
+                found[count++] = j;
                 block->crossings += j >= end;
             }
         }
-        bed->pairs.start[i + 1] = block->near - before;
+        bed->pairs.start[i + 1] = count - before;
     }
 }
 
