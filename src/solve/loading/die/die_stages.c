@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/units.h"
 #include "pack/die/bed_order.h"
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
@@ -50,12 +51,22 @@ static bool save_good(struct gb_die_stages *stages, const struct gb_bed *bed,
     return stages->have_good;
 }
 
+static void write_step(const struct gb_die_stages *stages, double step, char *text,
+                       size_t size)
+{
+    gb_units_format_short(step * stages->scene.second_per_time, GB_DIM_TIME, 3, text,
+                          size);
+}
+
 /* Half the step from the last good state on, or the end. */
 static enum gb_step_outcome halve_time_step(struct gb_die_stages *stages,
                                             struct gb_bed *bed, const char *why,
                                             char *text, size_t size, struct gb_error *err)
 {
     const double step = stages->now.leapfrog.step;
+    char last[48], half[48];
+    write_step(stages, step, last, sizeof last);
+    write_step(stages, 0.5 * step, half, sizeof half);
     if (!gb_bed_copy_restore(bed, stages->kept, err)) {
         return GB_STEP_STOPPED;
     }
@@ -63,12 +74,10 @@ static enum gb_step_outcome halve_time_step(struct gb_die_stages *stages,
     stages->now.leapfrog.limit = 0.5 * step;
     stages->now.leapfrog.step = 0.0;
     if (++stages->halvings > GB_STEP_HALVINGS_MAX) {
-        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g ps", why,
-                     1e12 * step * stages->scene.second_per_time);
+        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %s", why, last);
         return GB_STEP_STOPPED;
     }
-    snprintf(text, size, "guard: %s; time step halved to %.3g ps", why,
-             0.5e12 * step * stages->scene.second_per_time);
+    snprintf(text, size, "guard: %s; time step halved to %s", why, half);
     return GB_STEP_MORE;
 }
 
