@@ -78,6 +78,13 @@ double gb_law_hertz_damping(double stiffness, double reduced_mass, double xi)
     return 2.0 * xi * sqrt(reduced_mass * stiffness);
 }
 
+double gb_law_hertz_damping_borne(double damping, double stiffness, double square,
+                                  double step)
+{
+    const double rate = step * square;
+    return rate > 0.0 ? fmin(damping, GB_LAW_HERTZ_BORNE * stiffness / rate) : damping;
+}
+
 double gb_law_hertz_damped_force(double elastic, double damping, double approach)
 {
     return fmax(elastic + damping * approach, 0.0);

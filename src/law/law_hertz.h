@@ -52,6 +52,14 @@ double gb_law_hertz_damping(double stiffness, double reduced_mass, double xi);
  * never pulls: 0 where the dashpot would outweigh the spring. */
 double gb_law_hertz_damped_force(double elastic, double damping, double approach);
 
+/* Damping of a contact that central differences of this step bear: as much as there is, but
+ * c omega^2 step/k at most a third.  Their dashpots take the velocity of half a step ago, and those of
+ * several contacts add up; a step that resolves the damping leaves it as it is.  square: omega^2 of
+ * the fastest mode that the contact may be part of; k/m* for a lone pair. */
+double gb_law_hertz_damping_borne(double damping, double stiffness, double square,
+                                  double step);
+#define GB_LAW_HERTZ_BORNE (1.0 / 3.0)
+
 /* Critical time step of one particle on a spring, (24), (28), (29): 2/omega (sqrt(1 +
  * xi^2) - xi), omega^2 = stiffness/mass; INFINITY without a spring.  P3 puts in the
  * stiffest contact of the particle and leaves the rest to its safety factor (26): a pair

@@ -166,6 +166,30 @@ static void test_critical_step(void)
     g_assert_true(isinf(gb_law_hertz_critical_step(0.0, 0.7, 0.9)));
 }
 
+/* Dashpots that are borne: what there is in a step that resolves them, and stable up to sqrt
+ * 3/omega for any damping. */
+static void test_damping_borne(void)
+{
+    const double stiffness = 3.0, mass = 0.7, rates = stiffness / mass;
+    const double omega = sqrt(rates);
+    for (double xi = 0.01; xi < 300.0; xi *= 1.3) {
+        const double damping = gb_law_hertz_damping(stiffness, mass, xi);
+        const double small = 0.16 / (omega * xi), large = 0.17 / (omega * xi);
+        g_assert_true(gb_law_hertz_damping_borne(damping, stiffness, rates, small) ==
+                      damping);
+        g_assert_true(gb_law_hertz_damping_borne(damping, stiffness, rates, large) <
+                      damping);
+        g_assert_true(gb_law_hertz_damping_borne(damping, stiffness, rates, 0.0) ==
+                      damping);
+        const double step = 0.99 * sqrt(3.0) / omega;
+        const double borne = gb_law_hertz_damping_borne(damping, stiffness, rates, step);
+        g_assert_cmpfloat(
+            leapfrog(stiffness, mass, 0.5 * borne / sqrt(mass * stiffness), step), <,
+            10.0);
+    }
+    g_assert_true(gb_law_hertz_damping_borne(0.0, 0.0, 0.0, 1.0) == 0.0);
+}
+
 static void test_rotate(void)
 {
     GRand *random = g_rand_new_with_seed(4);
@@ -305,6 +329,7 @@ int main(int argc, char **argv)
     g_test_add_func("/hertz/no-contact", test_no_contact);
     g_test_add_func("/hertz/damping", test_damping);
     g_test_add_func("/hertz/critical-step", test_critical_step);
+    g_test_add_func("/hertz/damping-borne", test_damping_borne);
     g_test_add_func("/mindlin/rotate", test_rotate);
     g_test_add_func("/mindlin/slip", test_slip);
     g_test_add_func("/mindlin/stick-and-slide", test_stick_and_slide);
