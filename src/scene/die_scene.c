@@ -94,6 +94,13 @@ static double given_or(double value, double otherwise)
     return isnan(value) ? otherwise : value;
 }
 
+static double safety_of(enum gb_fidelity fidelity)
+{
+    return fidelity == GB_FIDELITY_REFERENCE  ? GB_SAFETY_REFERENCE
+           : fidelity == GB_FIDELITY_BALANCED ? GB_SAFETY_BALANCED
+                                              : GB_SAFETY_FAST;
+}
+
 void gb_die_scene_freeze(struct gb_model *model, const struct gb_params *params)
 {
     const double d = params->diameter_m, unit = gb_derived_unit_time_s(params);
@@ -122,9 +129,7 @@ void gb_die_scene_freeze(struct gb_model *model, const struct gb_params *params)
         .rest_time = params->rest_s / unit,
         .eject_speed = params->eject_m_s * unit / d,
         .weld_strength = params->weld_strength_pa / params->young_pa,
-        .safety = given_or(params->safety, params->fidelity == GB_FIDELITY_REFERENCE
-                                               ? GB_SAFETY_REFERENCE
-                                               : GB_SAFETY_BALANCED),
+        .safety = given_or(params->safety, safety_of((enum gb_fidelity)params->fidelity)),
         .time_step = isnan(step) ? 0.0 : step / unit,
         .inertia_scale = params->inertia_scale,
         .central_radius = 0.5 * params->central_m / d,

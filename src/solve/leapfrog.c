@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/portable.h"
-#include "law/critical_step.h"
 #include "pack/die/bed_drift.h"
 #include "scene/tolerances.h"
 
@@ -15,13 +14,13 @@ void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
 
 double gb_leapfrog_critical(const struct gb_bed *bed)
 {
-    const double stiffest = bed->tally.stiffest;
-    const bool friction = bed->law.mu > 0.0 || bed->law.mu_wall > 0.0;
-    /* k_t (1/m + R^2/I) */
-    const double rotational =
-        friction ? bed->law.shear * (1.0 + 2.5 / bed->inertia_scale) : 0.0;
-    return fmin(gb_critical_step(sqrt(stiffest), bed->law.damping),
-                gb_critical_step(sqrt(rotational * stiffest), 0.0));
+    const double smooth = bed->tally.stiffest;
+    /* k_t (1/m + R^2/I) of a spring; two across each normal, one of a lone wall's along a mode */
+    const double across = bed->law.shear * (1.0 + 2.5 / bed->inertia_scale);
+    const int rubbed = bed->law.mu > 0.0 ? 2 : bed->law.mu_wall > 0.0 ? 1 : 0;
+    const int springs = rubbed + (bed->welds ? 2 : 0);
+    const double rough = smooth * (1.0 + springs * across);
+    return sqrt(fmin(2.0 / smooth, 3.0 / rough));
 }
 
 /* T = 2.868 (m^2/(R E*^2 v))^(1/5); a spring of that half period has the critical step 2
@@ -29,14 +28,14 @@ double gb_leapfrog_critical(const struct gb_bed *bed)
 double gb_leapfrog_impact(const struct gb_bed *bed, double speed)
 {
     const double d = 2.0 * bed->smallest, modulus = bed->law.normal.hertz.modulus;
-    const double mass = d * d * d, xi = bed->law.damping;
+    const double mass = d * d * d;
     if (!(speed > 0.0)) {
         return INFINITY;
     }
     const double duration =
         2.868 *
         gb_portable_pow(mass * mass / (bed->smallest * modulus * modulus * speed), 0.2);
-    return M_2_PI * duration * gb_critical_step_share(xi);
+    return GB_IMPACT_SHARE * M_2_PI * duration;
 }
 
 static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed *bed)
@@ -54,14 +53,39 @@ static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed 
     return fmin(fmin(allowed, most), leapfrog->limit);
 }
 
+/* Velocities by a step, and what holds each particle; returns a bound of the speeds. */
+static double kick(const struct gb_leapfrog *leapfrog, struct gb_bed *bed, double step)
+{
+    const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
+                                          .torque = (const gb_bed_row *)bed->torque,
+                                          .inverse_mass = bed->inverse_mass,
+                                          .inverse_inertia = bed->inverse_inertia,
+                                          .step = step,
+                                          .gravity = leapfrog->gravity,
+                                          .drag = leapfrog->drag};
+    return gb_bed_drift_kick(bed, &by);
+}
+
+/* The first step: neither forces are known yet nor what holds the particles, which the second
+ * evaluation sums over the two of each contact. */
+static bool begin(struct gb_leapfrog *leapfrog, struct gb_bed *bed, struct gb_error *err)
+{
+    if (!gb_bed_evaluate_blocks(bed, 0.0, 0.0, err)) {
+        return false;
+    }
+    (void)kick(leapfrog, bed, 0.0);
+    if (!gb_bed_evaluate_blocks(bed, 0.0, 0.0, err)) {
+        return false;
+    }
+    leapfrog->step = next_step(leapfrog, bed);
+    return true;
+}
+
 bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
                       struct gb_error *err)
 {
-    if (!(leapfrog->step > 0.0)) { /* the first: forces are not known yet */
-        if (!gb_bed_evaluate(bed, 0.0, 0.0, err)) {
-            return false;
-        }
-        leapfrog->step = next_step(leapfrog, bed);
+    if (!(leapfrog->step > 0.0) && !begin(leapfrog, bed, err)) {
+        return false;
     }
     const double deviation2 = gb_bed_drift(bed, leapfrog->step);
     bed->die.punch_position += leapfrog->step * bed->die.punch_velocity;
@@ -70,14 +94,7 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
         return false;
     }
     const double next = next_step(leapfrog, bed), half = 0.5 * (leapfrog->step + next);
-    const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
-                                          .torque = (const gb_bed_row *)bed->torque,
-                                          .inverse_mass = bed->inverse_mass,
-                                          .inverse_inertia = bed->inverse_inertia,
-                                          .step = half,
-                                          .gravity = leapfrog->gravity,
-                                          .drag = leapfrog->drag};
-    leapfrog->fastest = gb_bed_drift_kick(bed, &by);
+    leapfrog->fastest = kick(leapfrog, bed, half);
     if (leapfrog->punch_mass > 0.0) {
         bed->die.punch_velocity +=
             half * (bed->tally.punch - leapfrog->load) / leapfrog->punch_mass;

@@ -8,7 +8,7 @@
 /* Newton's equations of a bed by central differences (leapfrog): velocities are half a step
  * before the positions, and the dashpots take them there.  Source: P3 3.1, 3.4. */
 struct gb_leapfrog {
-    double safety;  /* of the automatic step, (26); 0.1 in P3 */
+    double safety;  /* share of the critical step, (26); 0.1 in P3 */
     double given;   /* step that the preset fixes; 0: automatic */
     double limit;   /* longest step that a guard leaves */
     double gravity; /* along -z */
@@ -28,9 +28,13 @@ void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
 bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
                       struct gb_error *err);
 
-/* Critical time step, (23)-(29): the stiffest contact on the lighter particle, with
- * damping; with friction also the mode in which shear and rotation go together, which is
- * not damped.  INFINITY without contacts. */
+/* Critical time step sqrt(2/stiffest), stiffest that of gb_bed_tally: no mode grows, whatever the
+ * damping.  Central differences need dt^2 omega^2 + 2 dt (rate of damping) < 4; of these 4
+ * gb_law_hertz_damping_borne leaves 3 to a straight chain, whose omega^2 is 1.5 stiffest.
+ * Friction and welds add undamped springs across the normal, which spin the particles too, and
+ * shorten it: dt^2 omega^2 of heaps is 2 without and 1.3 with them.  INFINITY without contacts.
+ * Not P3 (23)-(29), by the stiffest contact on its lighter particle: at half of that step a sphere
+ * that several contacts hold vibrates without end. */
 double gb_leapfrog_critical(const struct gb_bed *bed);
 
 /* Time step that resolves the impact of a particle of this speed, from Hertz' duration of

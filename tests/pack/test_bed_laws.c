@@ -43,6 +43,7 @@ struct scalar {
 struct motion {
     double radius[2], mass[2];
     double branch[3], slip[3], spin[2][3];
+    double held[2]; /* stiffness over mass of either body */
 };
 
 static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
@@ -62,7 +63,12 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
         branch = gb_law_storakers_update(&law->normal, rr, h, &state->deepest);
     }
     const double reduced = m->mass[0] * m->mass[1] / (m->mass[0] + m->mass[1]);
-    const double damping = gb_law_hertz_damping(branch.stiffness, reduced, law->damping);
+    const double factor = 4.0 / 3.0 * hertz->modulus * sqrt(rr); /* F = factor part^1.5 */
+    const double unloading = 1.5 * factor * cbrt(branch.force / factor);
+    const double square = (2.0 * unloading / reduced + m->held[0] + m->held[1]) / 3.0;
+    const double damping = gb_law_hertz_damping_borne(
+        gb_law_hertz_damping(branch.stiffness, reduced, law->damping), unloading, square,
+        step);
     const double fn = h > 0.0 ? gb_law_hertz_damped_force(branch.force, damping,
                                                           -gb_vec_dot(m->slip, n))
                               : 0.0;
@@ -92,6 +98,7 @@ static struct motion random_motion(GRand *rand, double phase)
     m.radius[1] = reach - m.radius[0];
     for (int b = 0; b < 2; b++) {
         m.mass[b] = 8.0 * m.radius[b] * m.radius[b] * m.radius[b];
+        m.held[b] = 0.5 * g_rand_double(rand);
         for (int k = 0; k < 3; k++) {
             m.spin[b][k] = 2e-3 * (g_rand_double(rand) - 0.5);
         }
@@ -155,6 +162,7 @@ static void evaluate(struct contact_set *set, size_t w, int step)
             gb_bed_contacts_set(&set->contacts[w], k, set->law, m->radius, m->mass);
         }
         b->reach[k] = m->radius[0] + m->radius[1];
+        b->held[k] = m->held[0] + m->held[1];
         for (int c = 0; c < 3; c++) {
             b->branch[c][k] = m->branch[c];
             b->slip[c][k] = m->slip[c];
@@ -192,6 +200,7 @@ static void check_widths(const struct contact_set *set)
             for (int c = 0; c < 3; c++) {
                 g_assert_true(b->force[c][k] == first->force[c][k]);
             }
+            g_assert_true(b->holds[k] == first->holds[k]);
         }
         g_assert_true(b->stiffest == first->stiffest);
     }
@@ -250,7 +259,8 @@ static void test_transfer(void)
     for (int c = 0; c < COLUMNS; c++) {
         for (int i = 0; i < ROWS; i++) {
             for (int k = 0; k < 4; k++) {
-                row[c][i][k] = c > 0 && k == 3 ? 0.0 : sin(1.0 + 4.0 * i + 160.0 * c + k);
+                const bool unused = k == 3 && (c == 2 || c == 4);
+                row[c][i][k] = unused ? 0.0 : sin(1.0 + 4.0 * i + 160.0 * c + k);
             }
         }
     }
@@ -284,6 +294,9 @@ static void test_transfer(void)
                         batch[wide].moment[c][k] = cos(0.7 * k + c);
                     }
                 }
+                for (int k = 0; k < GB_BED_BATCH; k++) {
+                    batch[wide].holds[k] = 1.5 + cos(0.2 * k);
+                }
                 transfer.scatter(&rows, &batch[wide]);
             }
             g_assert_true(memcmp(&batch[0], &batch[1], sizeof batch[0]) == 0);
@@ -292,6 +305,8 @@ static void test_transfer(void)
             const double *xi = row[0][first[last]], *xj = row[0][other[last]];
             g_assert_cmpfloat(batch[0].reach[last], ==, xi[3] + xj[3]);
             g_assert_cmpfloat(batch[0].branch[2][last], ==, xi[2] - xj[2]);
+            g_assert_cmpfloat(batch[0].held[last], ==,
+                              row[1][first[last]][3] + row[1][other[last]][3]);
             g_assert_cmpfloat(batch[0].roll[1][last], ==,
                               friction ? xi[3] * row[2][first[last]][1] +
                                              xj[3] * row[2][other[last]][1]

@@ -132,7 +132,8 @@ static void test_step_above_critical(void)
 }
 
 /* Hand-made faults: each is told in one line, and the way back is taken. */
-static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
+static void check_fault(int64_t steps, void (*spoil)(struct gb_bed *bed),
+                        const char *word)
 {
     struct gb_error err = {0};
     const struct gb_params params = die_params(NULL);
@@ -141,13 +142,14 @@ static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
     while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_POINT) {
     }
-    g_assert_cmpint(gb_experiment_advance(experiment, 50, &err), ==, GB_STEP_MORE);
+    g_assert_cmpint(gb_experiment_advance(experiment, steps, &err), ==, GB_STEP_MORE);
     take_events(experiment, events);
     g_string_truncate(events, 0);
     spoil(experiment->loading->bed);
     while (gb_experiment_advance(experiment, 1000, &err) == GB_STEP_MORE) {
     }
     take_events(experiment, events);
+    g_test_message("expected \"%s\" in: %s", word, events->str);
     g_assert_nonnull(strstr(events->str, word));
     g_assert_nonnull(strstr(events->str, "guard: "));
     g_assert_cmpint(gb_bed_escaped(experiment->loading->bed), ==, -1);
@@ -159,9 +161,10 @@ static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
 static void spoil_number(struct gb_bed *bed)
 {
     bed->position[11][1] = NAN;
+    gb_bed_invalidate_lists(
+        bed); /* found by the next build, or else by a check for escapes */
 }
 
-/* The heaviest one: the wall throws others through the powder before the next check. */
 static void spoil_escape(struct gb_bed *bed)
 {
     int64_t heaviest = 0;
@@ -178,9 +181,13 @@ static void spoil_punch(struct gb_bed *bed)
 
 static void test_faults(void)
 {
-    check_fault(spoil_number, "must be finite with a radius of at least 0: position (");
-    check_fault(spoil_escape, "left the die");
-    check_fault(spoil_punch, "punch is below");
+    /* an escape just before a check: the wall throws the sphere through the powder, and the
+     * powder at the punch */
+    const int64_t check = 4 * GB_ESCAPE_CHECK_STEPS;
+    check_fault(check - 8, spoil_number,
+                "must be finite with a radius of at least 0: position (");
+    check_fault(check - 1, spoil_escape, "left the die");
+    check_fault(check - 8, spoil_punch, "punch is below");
 }
 
 /* Time steps to a point some steps behind a check for escapes, which are counted from the

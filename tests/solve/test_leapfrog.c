@@ -1,7 +1,9 @@
 #include <glib.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
+#include <string.h>
 
+#include "base/vec.h"
 #include "common/bed.h"
 #include "solve/leapfrog.h"
 
@@ -160,11 +162,197 @@ static void test_critical(void)
     }
 }
 
+/* A straight chain of equal spheres, squeezed between floor and punch. */
+static struct gb_bed *create_chain(int count, double overlap, double damping)
+{
+    const double radius[] = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+    struct gb_die die = bed_die(10.0);
+    struct gb_bed_law law = bed_law();
+    law.damping = damping;
+    const double at_wall = overlap * cbrt(0.5); /* the same force at twice the R* */
+    die.punch = true;
+    die.punch_position = 1.0 - 2.0 * at_wall + (count - 1) * (1.0 - overlap);
+    struct gb_bed *bed = bed_create(count, radius, &die, &law);
+    for (int i = 0; i < count; i++) {
+        bed_set_position(bed, i, 0.0, 0.0, 0.5 - at_wall + i * (1.0 - overlap));
+    }
+    return bed;
+}
+
+/* Just below the critical step a chain, in which no direction is free of dashpots, comes to
+ * rest for any damping, and without damping keeps its energy. */
+static void test_chain(void)
+{
+    static const double damping[] = {0.0, 0.05, 0.3, 0.9, 3.0, 30.0};
+    for (size_t k = 0; k < G_N_ELEMENTS(damping); k++) {
+        for (int count = 1; count <= 8; count++) {
+            struct gb_bed *bed = create_chain(count, 1e-3, damping[k]);
+            struct gb_leapfrog motion;
+            gb_leapfrog_init(&motion, 0.98, 0.0);
+            for (int i = 0; i < count; i++) {
+                bed->velocity[i][2] = 1e-9 * cos(2.0 * i);
+            }
+            const double before = kinetic(bed);
+            double most = 0.0;
+            for (int step = 0; step < 20000; step++) {
+                advance_step(&motion, bed);
+                most = step >= 19000 ? fmax(most, kinetic(bed)) : 0.0;
+            }
+            g_assert_cmpfloat(most, <, damping[k]> 0.0 ? 1e-6 * before : 30.0 * before);
+            gb_bed_destroy(bed);
+        }
+    }
+}
+
+enum { SIDE = 6, HEAP = SIDE * SIDE * SIDE };
+
+/* Overlapping spheres of sizes to 1 : ratio at the nodes of a disturbed lattice, on the floor and
+ * the side. */
+static struct gb_bed *create_heap(double ratio, double mu, double mu_wall, GRand *rand)
+{
+    const struct gb_die die = bed_die(0.55 * SIDE);
+    struct gb_bed_law law = bed_law();
+    law.mu = mu;
+    law.mu_wall = mu_wall;
+    law.damping = 0.9;
+    double radius[HEAP];
+    for (int i = 0; i < HEAP; i++) {
+        radius[i] = 0.55 / (1.0 + (ratio - 1.0) * g_rand_double(rand));
+    }
+    struct gb_bed *bed = bed_create(HEAP, radius, &die, &law);
+    for (int i = 0; i < HEAP; i++) {
+        double x[3] = {i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)};
+        for (int c = 0; c < 3; c++) {
+            x[c] += g_rand_double_range(rand, -0.3, 0.3) - (c < 2 ? 0.5 * SIDE - 0.5 : 0);
+        }
+        bed_set_position(bed, i, x[0], x[1], fmax(x[2], 0.0) + 0.5);
+    }
+    return bed;
+}
+
+/* A mode: displacements u and rotations w. */
+struct mode {
+    double u[HEAP][3], w[HEAP][3];
+};
+
+/* Forces and torques of the springs of one contact against a small motion. */
+static void add_spring(const struct gb_bed *bed, int32_t i, int32_t j,
+                       const double unit[3], double normal, double shear,
+                       const struct mode *motion, struct mode *force)
+{
+    const double ri = bed->position[i][3], rj = j >= 0 ? bed->position[j][3] : 0.0;
+    double slip[3], roll[3], across[3], moment[3];
+    for (int c = 0; c < 3; c++) {
+        slip[c] = motion->u[i][c] - (j >= 0 ? motion->u[j][c] : 0.0);
+        roll[c] = ri * motion->w[i][c] + (j >= 0 ? rj * motion->w[j][c] : 0.0);
+    }
+    gb_vec_cross(roll, unit, across);
+    gb_vec_add(slip, -1.0, across);
+    const double along = gb_vec_dot(slip, unit);
+    gb_vec_scale(slip, shear);
+    gb_vec_add(slip, (normal - shear) * along, unit);
+    gb_vec_cross(slip, unit, moment);
+    for (int c = 0; c < 3; c++) {
+        force->u[i][c] += slip[c];
+        force->w[i][c] += ri * moment[c];
+        if (j >= 0) {
+            force->u[j][c] -= slip[c];
+            force->w[j][c] += rj * moment[c];
+        }
+    }
+}
+
+/* Forces of all contacts of a bed. */
+static void add_springs(const struct gb_bed *bed, const struct mode *motion,
+                        struct mode *force)
+{
+    for (int kind = 0; kind < 2; kind++) {
+        const struct gb_bed_list *list = kind ? &bed->walls : &bed->pairs;
+        const double mu = kind ? bed->law.mu_wall : bed->law.mu;
+        const double shear_over_normal = mu > 0.0 ? bed->law.shear : 0.0;
+        for (int64_t s = 0; s < list->count; s++) {
+            const int32_t i = list->first[s], j = list->other[s];
+            const double *x = bed->position[i];
+            double unit[3], overlap = 0.0;
+            if (kind) {
+                overlap = gb_die_overlap(&bed->die, (enum gb_die_wall)j, x, x[3], unit);
+            } else {
+                memcpy(unit, x, sizeof unit);
+                gb_vec_add(unit, -1.0, bed->position[j]);
+                const double r = gb_vec_length(unit);
+                gb_vec_scale(unit, 1.0 / r);
+                overlap = x[3] + bed->position[j][3] - r;
+            }
+            const double k = 1.5 * list->contacts.hertz[s] * sqrt(fmax(overlap, 0.0));
+            add_spring(bed, i, kind ? -1 : j, unit, k, shear_over_normal * k, motion,
+                       force);
+        }
+    }
+}
+
+/* Largest omega^2 of the bed by power iteration, from below. */
+static double fastest_mode(const struct gb_bed *bed, GRand *rand)
+{
+    static struct mode motion, force;
+    double square = 0.0;
+    for (int i = 0; i < HEAP; i++) {
+        for (int c = 0; c < 3; c++) {
+            motion.u[i][c] = g_rand_double(rand) - 0.5;
+            motion.w[i][c] = g_rand_double(rand) - 0.5;
+        }
+    }
+    for (int k = 0; k < 500; k++) {
+        double energy = 0.0, power = 0.0;
+        memset(&force, 0, sizeof force);
+        add_springs(bed, &motion, &force);
+        for (int i = 0; i < HEAP; i++) {
+            energy += bed->mass[i] * gb_vec_dot(motion.u[i], motion.u[i]) +
+                      gb_vec_dot(motion.w[i], motion.w[i]) / bed->inverse_inertia[i];
+            power +=
+                gb_vec_dot(motion.u[i], force.u[i]) + gb_vec_dot(motion.w[i], force.w[i]);
+        }
+        square = power / energy;
+        for (int i = 0; i < HEAP; i++) {
+            memcpy(motion.u[i], force.u[i], sizeof motion.u[i]);
+            memcpy(motion.w[i], force.w[i], sizeof motion.w[i]);
+            gb_vec_scale(motion.u[i], bed->inverse_mass[i] / sqrt(energy));
+            gb_vec_scale(motion.w[i], bed->inverse_inertia[i] / sqrt(energy));
+        }
+    }
+    return square;
+}
+
+/* The critical step against the fastest mode of heaps: dashpots have their share of stability,
+ * and the step is not many times shorter than it needs to be. */
+static void test_modes(void)
+{
+    static const double ratio[] = {1.0, 2.0, 6.0};
+    GRand *rand = g_rand_new_with_seed(11);
+    for (int k = 0; k < 18; k++) {
+        const double mu = k % 3 == 2 ? 0.3 : 0.0, mu_wall = k % 3 > 0 ? 0.3 : 0.0;
+        struct gb_error err = {0};
+        struct gb_bed *bed = create_heap(ratio[k / 3 % 3], mu, mu_wall, rand);
+        struct gb_leapfrog motion;
+        gb_leapfrog_init(&motion, 1e-6, 0.0);
+        g_assert_true(gb_leapfrog_step(&motion, bed, &err));
+        const double critical = gb_leapfrog_critical(bed);
+        const double square = fastest_mode(bed, rand);
+        g_test_message("sizes to %g, mu %.1f, of walls %.1f: (omega dt)^2 %.2f",
+                       ratio[k / 3 % 3], mu, mu_wall, critical * critical * square);
+        g_assert_cmpfloat(critical * critical * square, <, 3.0);
+        g_assert_cmpfloat(critical * critical * square, >, 1.0);
+        gb_bed_destroy(bed);
+    }
+    g_rand_free(rand);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/leapfrog/collision", test_collision);
     g_test_add_func("/leapfrog/closed", test_closed);
     g_test_add_func("/leapfrog/critical", test_critical);
+    g_test_add_func("/leapfrog/chain", test_chain);
+    g_test_add_func("/leapfrog/modes", test_modes);
     return g_test_run();
 }

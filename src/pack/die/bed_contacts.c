@@ -51,7 +51,7 @@ void gb_bed_contacts_set(struct gb_bed_contacts *c, int64_t slot,
     const double reduced = gb_law_hertz_radius(mass[0], mass[1]); /* the same formula */
     c->hertz[slot] = 4.0 / 3.0 * law->normal.hertz.modulus * sqrt(r);
     c->damping[slot] = gb_law_hertz_damping(1.0, reduced, law->damping);
-    c->inverse_mass[slot] = 1.0 / fmin(mass[0], mass[1]);
+    c->inverse_mass[slot] = 1.0 / reduced;
     c->transition[slot] =
         law->storakers ? gb_law_storakers_transition(&law->normal, r) : HUGE_VAL;
     c->deepest[slot] = c->permanent[slot] = 0.0;

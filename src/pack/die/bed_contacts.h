@@ -24,7 +24,7 @@ struct gb_bed_contacts {
     double *slab;
     double *hertz;        /* (4/3) E* sqrt R*: force over h^1.5 */
     double *damping;      /* 2 xi sqrt m*: dashpot over the root of the stiffness */
-    double *inverse_mass; /* one over the lesser mass */
+    double *inverse_mass; /* one over the reduced mass m* */
     double *transition;   /* overlap at which Storakers' law becomes plastic */
     double *deepest, *permanent; /* h_max, and h0 where unloading ends; Storakers only */
     double *shear[3];            /* force on the first; across the normal of last time */

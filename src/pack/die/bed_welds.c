@@ -110,7 +110,7 @@ static void remove_weld(struct gb_bed_welds *welds, int64_t at)
 struct weld {
     double normal, across; /* stiffness, E d */
     double dashpot;
-    double rate;              /* k over the lesser mass */
+    double inverse_mass;      /* one over the reduced mass */
     double strength, plastic; /* greatest tension, and force across it */
 };
 
@@ -126,7 +126,7 @@ static struct weld weld_of(const struct gb_bed *bed, int64_t k)
                         .strength = welds->strength * M_PI * a * a};
     weld.plastic = weld.strength / sqrt(3.0);
     weld.dashpot = 2.0 * bed->law.damping * sqrt(reduced * weld.normal);
-    weld.rate = weld.normal * fmax(bed->inverse_mass[i], bed->inverse_mass[j]);
+    weld.inverse_mass = 1.0 / reduced;
     return weld;
 }
 
@@ -169,7 +169,7 @@ static void advance_shear(struct gb_bed_welds *welds, int64_t k, const struct we
 }
 
 static void apply(struct gb_bed *bed, int32_t i, int32_t j, const double unit[3],
-                  double lever, const double force[3])
+                  double lever, const double force[3], double stiffness)
 {
     double moment[3];
     gb_vec_cross(force, unit, moment); /* -n x F */
@@ -179,6 +179,8 @@ static void apply(struct gb_bed *bed, int32_t i, int32_t j, const double unit[3]
         bed->torque[i][c] += lever * bed->position[i][3] * moment[c];
         bed->torque[j][c] += lever * bed->position[j][3] * moment[c];
     }
+    bed->force[i][3] += stiffness;
+    bed->force[j][3] += stiffness;
 }
 
 enum weld_state { WELD_HOLDS, WELD_BREAKS };
@@ -193,16 +195,20 @@ static enum weld_state advance_weld(struct gb_bed *bed, int64_t k, double step,
     const double distance = direction(bed, i, j, unit);
     const double lever = distance / (bed->position[i][3] + bed->position[j][3]);
     const double tension = weld.normal * (distance - welds->length[k]);
+    const double held = bed->velocity[i][3] + bed->velocity[j][3];
+    const double square = (2.0 * weld.normal * weld.inverse_mass + held) / 3.0;
     if (tension > weld.strength) {
         return WELD_BREAKS;
     }
     slip_of(bed, i, j, unit, lever, slip);
     advance_shear(welds, k, &weld, unit, slip, step, force);
     if (tension > 0.0) {
-        gb_vec_add(force, -tension - weld.dashpot * gb_vec_dot(slip, unit), unit);
+        const double dashpot =
+            gb_law_hertz_damping_borne(weld.dashpot, weld.normal, square, step);
+        gb_vec_add(force, -tension - dashpot * gb_vec_dot(slip, unit), unit);
     }
-    apply(bed, i, j, unit, lever, force);
-    *stiffest = fmax(*stiffest, weld.rate);
+    apply(bed, i, j, unit, lever, force, weld.normal);
+    *stiffest = fmax(*stiffest, square);
     return WELD_HOLDS;
 }
 
@@ -216,7 +222,7 @@ void gb_bed_welds_sweep(struct gb_bed *bed, double step)
             k++;
         }
     }
-    bed->tally.stiffest += stiffest;
+    bed->tally.stiffest = fmax(bed->tally.stiffest, stiffest);
 }
 
 double gb_bed_welds_share(const struct gb_bed *bed)

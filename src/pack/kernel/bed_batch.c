@@ -80,6 +80,7 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
     const double *restrict permanent = c->permanent + slot;
     double *restrict normal = c->normal + slot;
     const double slope = 1.0 + 0.5 * law->normal.exponent;
+    const double late = b->step / GB_LAW_HERTZ_BORNE; /* gb_law_hertz_damping_borne */
     double stiffest = b->stiffest;
 #pragma omp simd reduction(max : stiffest)
     for (int k = 0; k < b->n; k++) {
@@ -97,10 +98,13 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
             const double loading = slope * elastic / larger(h, 1e-300);
             stiffness = yields * loading + (1.0 - yields) * unloading;
         }
-        const double dashpot = damping[k] * sqrt(stiffness) * approach;
+        const double square =
+            (2.0 * (unloading * inverse_mass[k]) + b->held[k]) * (1.0 / 3.0);
+        const double borne = unloading / larger(late * square, 1e-300);
+        const double dashpot = smaller(damping[k] * sqrt(stiffness), borne) * approach;
         const double fn = larger(elastic - dashpot, 0.0);
-        const double rate = unloading * inverse_mass[k];
-        stiffest = rate > stiffest ? rate : stiffest;
+        stiffest = square > stiffest ? square : stiffest;
+        b->holds[k] = unloading;
         normal[k] = touching * fn - (1.0 - touching);
         b->along[k] = fn;
         if (t.friction) {

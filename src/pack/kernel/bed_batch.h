@@ -19,6 +19,8 @@ struct gb_bed_batch {
     double reach[GB_BED_BATCH];
     double unit[3][GB_BED_BATCH], overlap[GB_BED_BATCH], lever[GB_BED_BATCH];
     double slip[3][GB_BED_BATCH]; /* in: v_i - v_j of the centres */
+    double held[GB_BED_BATCH];    /* in: stiffness over mass, summed over both partners */
+    double holds[GB_BED_BATCH];   /* out: stiffness that it adds to either */
     double roll[3][GB_BED_BATCH]; /* in, friction: R_i w_i + R_j w_j */
     /* out: force on i; torque on i is R_i moment, on j R_j moment */
     double force[3][GB_BED_BATCH], moment[3][GB_BED_BATCH];
@@ -29,7 +31,7 @@ struct gb_bed_batch {
     double ratio[GB_BED_BATCH], logarithm[GB_BED_BATCH], loaded[GB_BED_BATCH];
     double along[GB_BED_BATCH], stiffness[GB_BED_BATCH], approach[GB_BED_BATCH];
     double rate[3][GB_BED_BATCH], square[2][GB_BED_BATCH], kept[GB_BED_BATCH];
-    double stiffest; /* largest omega^2 = k/m of (29) so far; in and out */
+    double stiffest; /* that of gb_bed_tally so far; in and out */
 };
 
 /* Advances contacts [slot, slot + batch->n) to the present and fills the outputs. */

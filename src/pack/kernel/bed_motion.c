@@ -32,10 +32,11 @@ GB_SIMD_LOOP void drift_loop(gb_bed_row *restrict x, const gb_bed_row *restrict 
                              double *deviation2)
 {
     const gb_bed_row *restrict from = course->from, *restrict steady = course->velocity;
-    const double time = course->time;
+    const row by = {step, step, step, 0.0};
+    const row time = {course->time, course->time, course->time, 0.0};
     row most = {0.0, 0.0, 0.0, 0.0};
     for (int64_t i = 0; i < count; i++) {
-        const row now = READ(x, i) + step * READ(v, i);
+        const row now = READ(x, i) + by * READ(v, i);
         ROW(x, i) = now;
         LARGER_MAGNITUDE((now - READ(from, i)) - time * READ(steady, i), most);
     }
@@ -58,13 +59,15 @@ GB_SIMD_LOOP void kick_loop(gb_bed_row *restrict v, gb_bed_row *restrict w, int6
                             const struct gb_bed_motion_kick *by, double *fastest2)
 {
     const double step = by->step, slow = fmax(1.0 - step * by->drag, 0.0);
-    const row fall = {0.0, 0.0, -by->gravity * step, 0.0};
+    const row fall = {0.0, 0.0, -by->gravity * step, 0.0}, kept = {slow, slow, slow, 0.0};
+    const row pushed = {step, step, step, 1.0};
     const gb_bed_row *restrict force = by->force, *restrict torque = by->torque;
     const double *restrict mass = by->inverse_mass, *restrict inertia =
                                                         by->inverse_inertia;
     row most = {0.0, 0.0, 0.0, 0.0};
     for (int64_t i = 0; i < count; i++) {
-        const row speed = slow * READ(v, i) + ((step * mass[i]) * READ(force, i) + fall);
+        const row speed =
+            kept * READ(v, i) + ((pushed * mass[i]) * READ(force, i) + fall);
         ROW(v, i) = speed;
         ROW(w, i) = slow * READ(w, i) + (step * inertia[i]) * READ(torque, i);
         LARGER_MAGNITUDE(speed, most);

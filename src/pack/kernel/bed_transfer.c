@@ -12,6 +12,7 @@ static void gather_rest(const struct gb_bed_rows *rows, struct gb_bed_batch *b, 
             b->slip[c][k] = rows->velocity[i][c] - rows->velocity[j][c];
         }
         b->reach[k] = xi[3] + xj[3];
+        b->held[k] = rows->velocity[i][3] + rows->velocity[j][3];
         for (int c = 0; c < 3 && rows->friction; c++) {
             b->roll[c][k] = xi[3] * rows->spin[i][c] + xj[3] * rows->spin[j][c];
         }
@@ -29,6 +30,8 @@ static void scatter_rest(const struct gb_bed_rows *rows, const struct gb_bed_bat
             rows->force[i][c] += b->force[c][k];
             rows->force[to][c] -= b->force[c][k];
         }
+        rows->force[i][3] += b->holds[k];
+        rows->force[to][3] += b->holds[k];
         for (int c = 0; c < 3 && rows->friction; c++) {
             rows->torque[i][c] += ri * b->moment[c][k];
             rows->torque[to][c] += rj * b->moment[c][k];
@@ -89,7 +92,8 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
             const int32_t i = first[k + p], j = other[k + p] + from;
             const v4 xi = ROW(position, i), xj = ROW(position, j);
             branch[p] = SHUFFLE(xi - xj, xi + xj, 0, 1, 2, 7);
-            slip[p] = ROW(velocity, i) - ROW(velocity, j);
+            const v4 vi = ROW(velocity, i), vj = ROW(velocity, j);
+            slip[p] = SHUFFLE(vi - vj, vi + vj, 0, 1, 2, 7);
             if (friction) {
                 const v4 ri = SHUFFLE(xi, xi, 3, 3, 3, 3),
                          rj = SHUFFLE(xj, xj, 3, 3, 3, 3);
@@ -103,6 +107,7 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
             *(v4 *)(b->slip[c] + k) = slip[c];
         }
         *(v4 *)(b->reach + k) = branch[3];
+        *(v4 *)(b->held + k) = slip[3];
         if (friction) {
             TRANSPOSE(roll[0], roll[1], roll[2], roll[3]);
             for (int c = 0; c < 3; c++) {
@@ -120,19 +125,21 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
     const int32_t *restrict target = rows->target;
     const gb_bed_row *restrict position = rows->position;
     gb_bed_row *force_of = rows->force, *torque_of = rows->torque;
+    const v4 opposite = {-1.0, -1.0, -1.0, 1.0};
     const bool friction = rows->friction;
     const int32_t from = rows->from;
     const int n = b->n;
     int k = 0;
     for (; k + 4 <= n; k += 4) {
-        v4 force[4] = {{0}}, moment[4] = {{0}};
+        v4 force[4], moment[4] = {{0}};
         for (int c = 0; c < 3; c++) {
             force[c] = *(const v4 *)(b->force[c] + k);
         }
+        force[3] = *(const v4 *)(b->holds + k);
         TRANSPOSE(force[0], force[1], force[2], force[3]);
         for (int p = 0; p < 4; p++) {
             *(v4 *)force_of[first[k + p]] += force[p];
-            *(v4 *)force_of[target[k + p]] -= force[p];
+            *(v4 *)force_of[target[k + p]] += opposite * force[p];
         }
         if (!friction) {
             continue;

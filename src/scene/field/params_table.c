@@ -408,7 +408,8 @@ static const struct gb_field rows[] = {
     {"numerics", "safety", GB_FIELD_NUMBER, AT(safety), RANGE(1e-4, 10.0), AUTO(NAN),
      .fallback = "auto",
      .meaning =
-         "share of the critical time step taken in a die; auto: 0.5, reference 0.1",
+         "share of the critical time step taken in a die; auto: fast 0.9, balanced 0.5, "
+         "reference 0.1",
      .source = "P3 (26)"},
     {"numerics", "inertia_scale", GB_FIELD_NUMBER, AT(inertia_scale), RANGE(1.0, 1e4),
      .fallback = "10",
