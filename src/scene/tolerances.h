@@ -267,8 +267,8 @@
 
 /* Die scenes.  Share of the critical time step by fidelity.  0.9 and 0.5 press the same
  * bed of p3-hertz-mu0 to densities within 0.0003 of each other up to 50 MPa; poured and pressed
- * at 0.1, 0.5 and 0.9 it has 0.6561, 0.6587 and 0.6585 there (6, 3 and 3 beds, each within
- * 0.0014).  Above 1 chains of spheres are unstable. */
+ * at 0.1, 0.5 and 0.9 it has 0.6573, 0.6587 and 0.6585 there (2, 3 and 3 beds, each within
+ * 0.0017).  Above 1 chains of spheres are unstable. */
 #define GB_SAFETY_FAST      0.9
 #define GB_SAFETY_BALANCED  0.5
 #define GB_SAFETY_REFERENCE 0.1
