@@ -6,9 +6,6 @@
  *     (2/omega) (sqrt(1 + xi^2) - xi).
  * Source: P3 (28); O'Sullivan and Bray, Eng. Comput. 21, 278 (2004), without damping. */
 
-/* The share of 2/omega that damping leaves, sqrt(1 + xi^2) - xi. */
-double gb_critical_step_share(double damping_ratio);
-
 /* The step of the formula; INFINITY for frequencies that are not above 0. */
 double gb_critical_step(double frequency, double damping_ratio);
 

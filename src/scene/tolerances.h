@@ -366,8 +366,9 @@
  * as shares of the time of the reduction; the second is that under gravity at rest and goes
  * with one over the root of a higher one.  Without drag a bed of smooth spheres rotates about
  * the axis of the die without end: spheres at the wall roll, and no friction stops the others.
- * Beds of p3-hertz-mu0 come to rest in 41 to 78 us behind flattening with 0.3 (8 beds), in 42 to
- * 522 with 1 (11), in 56 to 80 with 3 (8), all of the same density at 0.5 MPa within 0.0005.
+ * At the safety 0.8 beds of p3-hertz-mu0 come to rest in 41 to 78 us behind flattening with 0.3 (8
+ * beds), in 42 to 522 with 1 (11), in 56 to 80 with 3 (8), all of the same density at 0.5 MPa
+ * within 0.0007.
  * Stronger: loose particles take long to fall. */
 #define GB_GRAVITY_RAMP_DRAG 0.1
 #define GB_REST_DRAG         0.3

@@ -15,9 +15,9 @@
  * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
  * fourth of a row is the radius in `position`, in `force` the sum of the normal stiffnesses of
  * the contacts (E d), in `velocity` that over the mass at the last step (1/T^2), and 0
- * elsewhere.  Behind the rows of the
- * particles are those of the walls (enum gb_die_wall); `force` and `torque` have the walls
- * once for each block, and then the crossings (pack/die/bed_blocks.h). */
+ * elsewhere.  Behind the rows of the particles are those of the walls (enum gb_die_wall); `force`
+ * and `torque` have the walls once for each block, and then the crossings
+ * (pack/die/bed_blocks.h). */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */
