@@ -275,10 +275,14 @@
 
 /* Share of the safety at which a step resolves an impact, of the critical step 2 T/pi of a
  * spring that pushes back in Hertz' time T.  A particle that is seen late is too deep by up to 1.9
- * times the product of this and the safety, of the deepest it would be.  Larger: from a product of
- * 0.6 on particles are thrown out of the bed while it is poured (0.5: of none of 20 beds).
- * Smaller: pouring takes longer. */
+ * times the product of this and the safety, of the deepest it would be.  Larger: such particles
+ * are given more energy than they bring.  Smaller: pouring takes longer. */
 #define GB_IMPACT_SHARE 0.5
+
+/* Radii of the smallest particle that the fastest one moves in a step of a die scene at most.
+ * Larger: where nothing is near, one step leads far into what it meets.  Smaller: it bounds steps
+ * that resolve every impact. */
+#define GB_STEP_TRAVEL_MAX 0.1
 
 /* A step of a die scene is at most this many times the last one: contacts that close
  * stiffen over many steps, and none is met at full stiffness.  Larger: the first steps

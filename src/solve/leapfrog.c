@@ -23,19 +23,25 @@ double gb_leapfrog_critical(const struct gb_bed *bed)
     return sqrt(fmin(2.0 / smooth, 3.0 / rough));
 }
 
-/* T = 2.868 (m^2/(R E*^2 v))^(1/5); a spring of that half period has the critical step 2
- * T/pi. */
-double gb_leapfrog_impact(const struct gb_bed *bed, double speed)
+double gb_leapfrog_impact(const struct gb_bed *bed)
 {
-    const double d = 2.0 * bed->smallest, modulus = bed->law.normal.hertz.modulus;
-    const double mass = d * d * d;
-    if (!(speed > 0.0)) {
-        return INFINITY;
+    const double impact = bed->tally.impact;
+    return impact > 0.0
+               ? GB_IMPACT_SHARE * M_2_PI * 3.218 * gb_portable_pow(1.0 / impact, 0.2)
+               : INFINITY;
+}
+
+/* The longest step for what no listed contact bounds. */
+static double free_step(const struct gb_leapfrog *leapfrog, const struct gb_bed *bed)
+{
+    if (!(leapfrog->step > 0.0)) {
+        return GB_FREE_STEP_MAX;
     }
-    const double duration =
-        2.868 *
-        gb_portable_pow(mass * mass / (bed->smallest * modulus * modulus * speed), 0.2);
-    return GB_IMPACT_SHARE * M_2_PI * duration;
+    /* a particle at rest may fall by its size before it meets another */
+    const double fast =
+        fmax(leapfrog->fastest, sqrt(2.0 * leapfrog->gravity * bed->smallest));
+    return fmin(GB_STEP_GROWTH_MAX * leapfrog->step,
+                GB_STEP_TRAVEL_MAX * bed->smallest / fast);
 }
 
 static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed *bed)
@@ -43,14 +49,9 @@ static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed 
     if (leapfrog->given > 0.0) {
         return fmin(leapfrog->given, leapfrog->limit);
     }
-    /* a particle at rest may fall by its size before it meets another */
-    const double fast =
-        fmax(leapfrog->fastest, sqrt(2.0 * leapfrog->gravity * bed->smallest));
     const double allowed =
-        leapfrog->safety * fmin(gb_leapfrog_critical(bed), gb_leapfrog_impact(bed, fast));
-    const double most =
-        leapfrog->step > 0.0 ? GB_STEP_GROWTH_MAX * leapfrog->step : GB_FREE_STEP_MAX;
-    return fmin(fmin(allowed, most), leapfrog->limit);
+        leapfrog->safety * fmin(gb_leapfrog_critical(bed), gb_leapfrog_impact(bed));
+    return fmin(fmin(allowed, free_step(leapfrog, bed)), leapfrog->limit);
 }
 
 /* Velocities by a step, and what holds each particle; returns a bound of the speeds. */

@@ -37,8 +37,9 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
  * that several contacts hold vibrates without end. */
 double gb_leapfrog_critical(const struct gb_bed *bed);
 
-/* Time step that resolves the impact of a particle of this speed, from Hertz' duration of
- * a collision of the smallest one with a wall; INFINITY at rest. */
-double gb_leapfrog_impact(const struct gb_bed *bed, double speed);
+/* Time step that resolves every collision of listed contacts: a share of the critical step 2 T/pi
+ * of a spring that pushes back in Hertz' duration T = 3.218 (m*^2/(H^2 v))^(1/5) of a collision at
+ * the speed v under the force H h^1.5; INFINITY while nothing closes. */
+double gb_leapfrog_impact(const struct gb_bed *bed);
 
 #endif

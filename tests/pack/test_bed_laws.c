@@ -155,7 +155,7 @@ static void evaluate(struct contact_set *set, size_t w, int step)
     b->n = N;
     b->step = 0.5;
     b->mu = set->mu;
-    b->stiffest = 0.0;
+    b->stiffest = b->impact = 0.0;
     for (int k = 0; k < N; k++) {
         const struct motion *m = &set->motion[k];
         if (step == 0) {
@@ -203,6 +203,7 @@ static void check_widths(const struct contact_set *set)
             g_assert_true(b->holds[k] == first->holds[k]);
         }
         g_assert_true(b->stiffest == first->stiffest);
+        g_assert_true(b->impact == first->impact);
     }
 }
 

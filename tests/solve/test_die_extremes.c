@@ -168,11 +168,11 @@ static void test_bounce(void)
     finish(&outcome);
 }
 
-/* Contacts without dissipation keep the poured powder moving. */
+/* Contacts and walls without dissipation keep the poured powder moving. */
 static void test_restless(void)
 {
     const struct gb_params params = die_params("particles.count=20", "contact.damping=0",
-                                               "numerics.safety=0.2", NULL);
+                                               "contact.mu_wall=0", NULL);
     struct outcome outcome = press(&params, NULL);
     g_assert_cmpint(outcome.how, ==, GB_STEP_STOPPED);
     g_assert_cmpint(outcome.err.code, ==, GB_ERR_GUARD);

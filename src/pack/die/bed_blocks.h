@@ -10,13 +10,16 @@
  * the first of.  Blocks do not depend on the number of threads. */
 enum { GB_BED_BLOCK_SIZE = 128 };
 
-/* Forces on the walls, and the stiffness that limits the time step. */
+/* Forces on the walls, and what limits the time step. */
 struct gb_bed_tally {
     /* Bound of omega^2 of the modes without friction: the largest (2 k/m* + L)/3 of a contact,
      * where L is the stiffness of all contacts over the mass, summed over its two bodies.  It
      * is omega^2 of a lone pair, and what others add where they point in all directions; a
      * straight chain has 1.5 times it. */
     double stiffest;
+    /* Largest closing speed times (H/m*)^2 of a listed contact, H its force over h^1.5: by it
+     * the shortest collision that is under way or may begin (gb_leapfrog_impact). */
+    double impact;
     double floor, punch; /* force on them, positive in compression */
     double side[2];      /* sum of f_x x, f_y y over the side's contacts */
     double drag;         /* of the side on the powder, along -z */

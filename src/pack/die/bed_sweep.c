@@ -55,11 +55,12 @@ static void sweep_block(void *data, int64_t b)
     struct gb_bed *bed = sweep->bed;
     struct gb_bed_batch batch;
     batch.step = sweep->step;
-    batch.stiffest = 0.0;
+    batch.stiffest = batch.impact = 0.0;
     clear_block(bed, b);
     sweep_pairs(bed, b, &batch);
     gb_bed_walls_sweep(bed, b, &batch);
     bed->blocks.block[b].tally.stiffest = batch.stiffest;
+    bed->blocks.block[b].tally.impact = batch.impact;
 }
 
 void gb_bed_sweep_sum_block(struct gb_bed *bed, int64_t b)
@@ -86,6 +87,7 @@ static void sum_tallies(struct gb_bed *bed)
     for (int64_t b = 0; b < bed->blocks.count; b++) {
         const struct gb_bed_tally *tally = &bed->blocks.block[b].tally;
         sum.stiffest = fmax(sum.stiffest, tally->stiffest);
+        sum.impact = fmax(sum.impact, tally->impact);
         sum.floor += tally->floor;
         sum.punch += tally->punch;
         sum.side[0] += tally->side[0];

@@ -81,8 +81,8 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
     double *restrict normal = c->normal + slot;
     const double slope = 1.0 + 0.5 * law->normal.exponent;
     const double late = b->step / GB_LAW_HERTZ_BORNE; /* gb_law_hertz_damping_borne */
-    double stiffest = b->stiffest;
-#pragma omp simd reduction(max : stiffest)
+    double stiffest = b->stiffest, impact = b->impact;
+#pragma omp simd reduction(max : stiffest, impact)
     for (int k = 0; k < b->n; k++) {
         const double nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
         const double h = larger(b->overlap[k], 0.0);
@@ -103,7 +103,10 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
         const double borne = unloading / larger(late * square, 1e-300);
         const double dashpot = smaller(damping[k] * sqrt(stiffness), borne) * approach;
         const double fn = larger(elastic - dashpot, 0.0);
+        const double rigid = hertz[k] * inverse_mass[k];
+        const double hits = -approach * (rigid * rigid);
         stiffest = square > stiffest ? square : stiffest;
+        impact = hits > impact ? hits : impact;
         b->holds[k] = unloading;
         normal[k] = touching * fn - (1.0 - touching);
         b->along[k] = fn;
@@ -116,6 +119,7 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
         b->force[2][k] = fn * nz;
     }
     b->stiffest = stiffest;
+    b->impact = impact;
 }
 
 /* Shear springs rotated into the tangent plane, but shorter by what was normal to it; the

@@ -31,7 +31,7 @@ struct gb_bed_batch {
     double ratio[GB_BED_BATCH], logarithm[GB_BED_BATCH], loaded[GB_BED_BATCH];
     double along[GB_BED_BATCH], stiffness[GB_BED_BATCH], approach[GB_BED_BATCH];
     double rate[3][GB_BED_BATCH], square[2][GB_BED_BATCH], kept[GB_BED_BATCH];
-    double stiffest; /* that of gb_bed_tally so far; in and out */
+    double stiffest, impact; /* those of gb_bed_tally so far; in and out */
 };
 
 /* Advances contacts [slot, slot + batch->n) to the present and fills the outputs. */
