@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "base/team/team.h"
 
 typedef double row[4];
 
@@ -213,6 +214,43 @@ static void test_periodic(void)
     gb_hgrid_finish(&hgrid);
 }
 
+/* Any number of threads finds the same pairs, however many parts there are. */
+static void test_threads(void)
+{
+    struct gb_error err = {0};
+    for (int64_t count = 100; count < 20000; count *= 5) {
+        struct cloud cloud = make(count, cbrt((double)count));
+        struct gb_hgrid alone, shared;
+        struct gb_team *team = NULL;
+        fill(&cloud, 6.0);
+        g_assert_true(gb_hgrid_init(&alone, count, &err));
+        g_assert_true(gb_hgrid_init(&shared, count, &err));
+        g_assert_true(gb_team_create(&team, 3, &err));
+        shared.team = team;
+        for (int round = 0; round < 3; round++) {
+            const double skin = 0.1 * (round + 1);
+            struct gb_hgrid *const both[] = {&alone, &shared};
+            for (size_t k = 0; k < G_N_ELEMENTS(both); k++) {
+                g_assert_true(gb_hgrid_build(both[k], &cloud.box, count,
+                                             (const double(*)[4])cloud.sphere, NULL, skin,
+                                             &err));
+            }
+            g_assert_cmpint(alone.pair_count, >, count);
+            g_assert_cmpint(alone.pair_count, ==, shared.pair_count);
+            g_assert_cmpint(memcmp(alone.start, shared.start,
+                                   ((size_t)count + 1) * sizeof *alone.start),
+                            ==, 0);
+            g_assert_cmpint(memcmp(alone.other, shared.other,
+                                   (size_t)alone.pair_count * sizeof *alone.other),
+                            ==, 0);
+        }
+        gb_team_destroy(team);
+        gb_hgrid_finish(&alone);
+        gb_hgrid_finish(&shared);
+        drop(&cloud);
+    }
+}
+
 static void expect(struct cloud *cloud, double skin, enum gb_status code,
                    const char *said)
 {
@@ -297,6 +335,7 @@ int main(int argc, char **argv)
     g_test_add_func("/hgrid/random", test_random);
     g_test_add_func("/hgrid/degenerate", test_degenerate);
     g_test_add_func("/hgrid/periodic", test_periodic);
+    g_test_add_func("/hgrid/threads", test_threads);
     g_test_add_func("/hgrid/guards", test_guards);
     g_test_add_func("/hgrid/memory", test_memory);
     return g_test_run();

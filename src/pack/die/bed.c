@@ -88,7 +88,9 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
 bool gb_bed_use_threads(struct gb_bed *bed, int threads, struct gb_error *err)
 {
     gb_team_destroy(bed->team);
-    return gb_team_create(&bed->team, threads, err);
+    const bool created = gb_team_create(&bed->team, threads, err);
+    bed->hgrid.team = bed->team;
+    return created;
 }
 
 void gb_bed_run_blocks(struct gb_bed *bed, gb_team_item *work, void *data)

@@ -233,13 +233,13 @@ static void record_build(struct gb_neighbour_list *list, const struct gb_cell *c
 /* Candidates by levels of size for unequal particles, but for a tilted cell.  Errors: those of
  * gb_list_levels_find. */
 static bool find_candidates(struct gb_neighbour_list *list, struct gb_list_scan *scan,
-                            struct gb_error *err)
+                            struct gb_team *team, struct gb_error *err)
 {
     if (!list->diameter || scan->grid.tilted) {
         return true;
     }
     return (list->levels || gb_list_levels_create(&list->levels, list->count, err)) &&
-           gb_list_levels_find(list->levels, scan, list->count, err);
+           gb_list_levels_find(list->levels, scan, list->count, team, err);
 }
 
 bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
@@ -263,7 +263,7 @@ bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
         .shift = (const double(*)[3])list->shift,
         .diameter = list->diameter};
     gb_neighbour_grid_init(&scan.grid, cell, reach, list->count);
-    if (!find_candidates(list, &scan, err) || !gb_list_scan_sort(&scan, list, err) ||
+    if (!find_candidates(list, &scan, team, err) || !gb_list_scan_sort(&scan, list, err) ||
         !fill_lists(list, &scan, team, err)) {
         return false;
     }

@@ -31,7 +31,7 @@ void gb_list_levels_destroy(struct gb_list_levels *levels)
 }
 
 bool gb_list_levels_find(struct gb_list_levels *levels, struct gb_list_scan *scan,
-                         int64_t count, struct gb_error *err)
+                         int64_t count, struct gb_team *team, struct gb_error *err)
 {
     struct gb_hgrid_box box = {.low = {0.0}};
     for (int k = 0; k < 3; k++) {
@@ -42,6 +42,7 @@ bool gb_list_levels_find(struct gb_list_levels *levels, struct gb_list_scan *sca
         memcpy(levels->sphere[i], scan->position + 3 * i, 3 * sizeof(double));
         levels->sphere[i][3] = 0.5 * scan->diameter[i];
     }
+    levels->hgrid.team = team;
     if (!gb_hgrid_build(&levels->hgrid, &box, count, (const double(*)[4])levels->sphere,
                         NULL, scan->bounds.gap, err)) {
         return false;

@@ -19,6 +19,6 @@ void gb_list_levels_destroy(struct gb_list_levels *levels);
 /* Candidates of all particles of the scan, out to its gap; the scan takes its neighbours
  * from them.  Errors: those of gb_hgrid_build. */
 bool gb_list_levels_find(struct gb_list_levels *levels, struct gb_list_scan *scan,
-                         int64_t count, struct gb_error *err);
+                         int64_t count, struct gb_team *team, struct gb_error *err);
 
 #endif

@@ -22,22 +22,29 @@ struct gb_hgrid_box {
     bool periodic[3];
 };
 
+/* Rows of the sorted spheres: x, y, z, wrapped into the box, and reach; and how far behind the
+ * last sphere they are read. */
+enum { GB_HGRID_REACH = 3, GB_HGRID_ROWS = 4, GB_HGRID_SLACK = 4 };
+
 /* The pairs: (i, other[k]) with i < other[k] for k in [start[i], start[i + 1]),
- * ascending.  The other members are scratch of hgrid.c and hgrid_levels.c. */
+ * ascending.  The other members are scratch of hgrid*.c. */
 struct gb_hgrid {
     int64_t pair_count;
     int64_t *start; /* capacity + 1 */
     int32_t *other;
     int levels; /* at most; 1: the plain grid, to compare with */
+    struct gb_team
+        *team; /* that searches, not owned; NULL: one thread.  The pairs are the same. */
 
     int64_t capacity, pair_capacity, cell_capacity;
-    struct gb_hgrid_sphere *sphere; /* sorted by level, then by grid cell */
-    int32_t *name;                  /* of each sorted sphere */
-    int32_t *cell;                  /* of each sphere */
+    double *sorted[GB_HGRID_ROWS]; /* spheres by level, then by grid cell */
+    int32_t *name, *partners; /* of each sorted sphere: its index; pairs found for it */
+    int32_t *cell;            /* of each sphere */
     int32_t *cell_start;
-    int64_t *later_start; /* pairs by their later sphere */
-    int32_t *found;       /* pairs in the order of the search, two numbers each */
-    int32_t *earlier;     /* of the pairs sorted by the later one */
+    int64_t *later_start;       /* pairs by their later sphere */
+    struct gb_hgrid_part *part; /* pairs in the order of the search */
+    int parts;
+    int32_t *earlier; /* of the pairs sorted by the later one */
 };
 
 /* Room for `capacity` spheres; a build with more allocates memory.

@@ -149,9 +149,10 @@ void gb_hgrid_levels_sort(struct gb_hgrid_search *search, const double (*sphere)
     for (int64_t i = 0; i < search->count; i++) {
         const int32_t p = hgrid->cell_start[hgrid->cell[i]]++;
         for (int k = 0; k < 3; k++) {
-            hgrid->sphere[p].x[k] = wrapped(search, k, sphere[i][k]);
+            hgrid->sorted[k][p] = wrapped(search, k, sphere[i][k]);
         }
-        hgrid->sphere[p].reach = gb_hgrid_levels_reach(sphere[i], margin, i, skin);
+        hgrid->sorted[GB_HGRID_REACH][p] =
+            gb_hgrid_levels_reach(sphere[i], margin, i, skin);
         hgrid->name[p] = (int32_t)i;
     }
     memmove(hgrid->cell_start + 1, hgrid->cell_start, (size_t)cells * sizeof(int32_t));

@@ -13,11 +13,6 @@ enum { GB_HGRID_LEVELS = 16 };
  */
 enum { GB_HGRID_CELLS_PER_SPHERE = 2, GB_HGRID_CELLS_MIN = 64 };
 
-struct gb_hgrid_sphere {
-    double x[3]; /* wrapped into the box */
-    double reach;
-};
-
 struct gb_hgrid_level {
     double widest; /* largest reach */
     int64_t count; /* spheres */
