@@ -62,9 +62,12 @@ class Terminal:
         self.env.update(GB_PRESET_DIR=presets, XDG_CONFIG_HOME=str(self.here / 'config'),
                         XDG_STATE_HOME=str(self.here / 'state'), LC_ALL='C.UTF-8')
         self.rows = []
+        # a server that ends may still take the command that starts the next program
+        self.settings = self.here / 'tmux.conf'
+        self.settings.write_text('set -s exit-empty off\n')
 
     def tmux(self, *words):
-        return subprocess.run(['tmux', '-u', '-L', self.socket, '-f', '/dev/null', *words],
+        return subprocess.run(['tmux', '-u', '-L', self.socket, '-f', self.settings, *words],
                               env=self.env, capture_output=True, text=True).stdout
 
     def start(self, words):
