@@ -18,13 +18,13 @@ enum { MARGIN = 8 << 20 };     /* left for small pieces */
 enum { IMAGE_MAX = 2 << 20, FILE_STEP = 2 << 20 };
 
 /* Whether there is room for so much more, and for small pieces, without which HDF5 ends the
- * program. */
+ * program.  Pages that are mapped and never written cost nothing; the heap may fill what it
+ * hands out (MALLOC_PERTURB_). */
 static bool left_beside(size_t size)
 {
-    void *volatile margin =
-        malloc(size + MARGIN); /* volatile: or compilers leave both out */
-    free(margin);
-    return margin != NULL;
+    void *margin = mmap(NULL, size + MARGIN, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return margin != MAP_FAILED && munmap(margin, size + MARGIN) == 0;
 }
 
 bool gb_hdf_memory_left(void)
@@ -45,11 +45,9 @@ static void *image_malloc(size_t size, H5FD_file_image_op_t why, void *data)
 
 static void *grow_memory(struct gb_hdf_memory *memory, void *image, size_t size)
 {
-    void *volatile larger = malloc(size > MARGIN ? size + MARGIN : MARGIN);
-    if (larger == NULL) {
+    if (!left_beside(size)) {
         return NULL;
     }
-    free(larger);
     memory->room = size;
     return realloc(image, size);
 }
