@@ -29,8 +29,7 @@ static bool must_fail(void)
 static struct head *allocate(size_t total)
 {
     const bool large = total >= LARGE;
-    char *memory =
-        large ? calloc(1, total + ALIGNMENT) : aligned_alloc(ALIGNMENT, total);
+    char *memory = large ? calloc(1, total + ALIGNMENT) : aligned_alloc(ALIGNMENT, total);
     if (!memory) {
         return NULL;
     }
@@ -61,6 +60,20 @@ void *gb_alloc_array(size_t count, size_t size, struct gb_error *err)
     }
     atomic_fetch_add(&bytes_held, total);
     return head + 1;
+}
+
+void *gb_alloc_grow(void *old, size_t kept, size_t room, size_t size,
+                    struct gb_error *err)
+{
+    void *grown = gb_alloc_array(room, size, err);
+    if (!grown) {
+        return NULL;
+    }
+    if (kept > 0) {
+        memcpy(grown, old, kept * size);
+    }
+    gb_alloc_free(old);
+    return grown;
 }
 
 void gb_alloc_free(void *memory)

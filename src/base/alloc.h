@@ -10,6 +10,11 @@
  * overflows or memory is out.  Free with gb_alloc_free. */
 void *gb_alloc_array(size_t count, size_t size, struct gb_error *err);
 
+/* Memory for `room` items that begins with the first `kept` of those of `old`, which is freed (NULL
+ * is fine with none); the rest is zeroed.  NULL as gb_alloc_array; `old` is as it was then. */
+void *gb_alloc_grow(void *old, size_t kept, size_t room, size_t size,
+                    struct gb_error *err);
+
 /* Frees what gb_alloc_array gave; NULL is fine. */
 void gb_alloc_free(void *memory);
 

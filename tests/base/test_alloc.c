@@ -87,6 +87,29 @@ static void test_threads(void)
     g_assert_cmpuint(gb_alloc_bytes(), ==, before);
 }
 
+/* What is kept stays, the rest is zero; without memory all stays. */
+static void test_grow(void)
+{
+    struct gb_error err = {0};
+    int *numbers = gb_alloc_grow(NULL, 0, 3, sizeof *numbers, &err);
+    g_assert_nonnull(numbers);
+    for (int k = 0; k < 3; k++) {
+        g_assert_cmpint(numbers[k], ==, 0);
+        numbers[k] = k + 1;
+    }
+    gb_alloc_fail_after(1);
+    g_assert_null(gb_alloc_grow(numbers, 2, 100, sizeof *numbers, &err));
+    gb_alloc_fail_after(0);
+    g_assert_cmpint(err.code, ==, GB_ERR_MEMORY);
+    g_assert_cmpint(numbers[2], ==, 3);
+    numbers = gb_alloc_grow(numbers, 2, 100, sizeof *numbers, &err);
+    g_assert_nonnull(numbers);
+    for (int k = 0; k < 100; k++) {
+        g_assert_cmpint(numbers[k], ==, k < 2 ? k + 1 : 0);
+    }
+    gb_alloc_free(numbers);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -94,5 +117,6 @@ int main(int argc, char **argv)
     g_test_add_func("/alloc/overflow", test_overflow);
     g_test_add_func("/alloc/hook", test_hook);
     g_test_add_func("/alloc/threads", test_threads);
+    g_test_add_func("/alloc/grow", test_grow);
     return g_test_run();
 }

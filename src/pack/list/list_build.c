@@ -29,15 +29,11 @@ static bool make_room(struct part *part, int64_t most)
     }
     const int64_t more = part->capacity > 0 ? part->capacity / 4 : part->expected;
     const int64_t room = part->capacity + more + most + 16 * GB_LIST_SCAN_MAX;
-    struct gb_list_scan_found *found =
-        gb_alloc_array((size_t)room, sizeof *found, &part->err);
+    struct gb_list_scan_found *found = gb_alloc_grow(
+        part->found, (size_t)part->count, (size_t)room, sizeof *found, &part->err);
     if (!found) {
         return false;
     }
-    if (part->count > 0) {
-        memcpy(found, part->found, (size_t)part->count * sizeof *found);
-    }
-    gb_alloc_free(part->found);
     part->found = found;
     part->capacity = room;
     return true;
@@ -263,8 +259,8 @@ bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
         .shift = (const double(*)[3])list->shift,
         .diameter = list->diameter};
     gb_neighbour_grid_init(&scan.grid, cell, reach, list->count);
-    if (!find_candidates(list, &scan, team, err) || !gb_list_scan_sort(&scan, list, err) ||
-        !fill_lists(list, &scan, team, err)) {
+    if (!find_candidates(list, &scan, team, err) ||
+        !gb_list_scan_sort(&scan, list, err) || !fill_lists(list, &scan, team, err)) {
         return false;
     }
     if (list->layout == GB_NEIGHBOUR_LIST_TRANSPOSED) {

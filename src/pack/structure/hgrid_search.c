@@ -1,7 +1,6 @@
 #include "pack/structure/hgrid_search.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/team/team.h"
@@ -61,14 +60,11 @@ static bool reserve(const struct gb_hgrid_search *search, struct gb_hgrid_part *
         return false;
     }
     const int64_t room = need + need / 2 + 8 * PART_SPHERES;
-    int32_t *found = gb_alloc_array((size_t)room, sizeof *found, &part->err);
+    int32_t *found = gb_alloc_grow(part->found, (size_t)part->count, (size_t)room,
+                                   sizeof *found, &part->err);
     if (!found) {
         return false;
     }
-    if (part->count > 0) {
-        memcpy(found, part->found, (size_t)part->count * sizeof *found);
-    }
-    gb_alloc_free(part->found);
     part->found = found;
     part->room = room;
     return true;
