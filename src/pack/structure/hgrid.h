@@ -10,7 +10,7 @@
  *
  * In a grid whose cells fit the largest sphere each cell holds hundreds of the smallest:
  * with a size ratio of 12 most candidates are far away.  Here spheres are sorted by size
- * into levels, each a factor of 2 wide with its own grid; the neighbours of a sphere are
+ * into levels, each at least a factor of 2 wide with its own grid; the neighbours of a sphere are
  * searched in its own level and in those of larger spheres.  The work is linear in the
  * number of spheres for any size distribution, as long as most of them lie in the box and
  * fill it evenly.  Lengths in any one unit. */

@@ -7,6 +7,10 @@
  * for one size and for P3's. */
 static const double cell_width = 2.0;
 
+/* Spheres in a cell up to which a level takes those of the next.  Four are compared at a time, and
+ * a level more is nine rows of cells more for each sphere. */
+static const double crowded = 12.0;
+
 static double clamp(double value, double low, double high)
 {
     return value < low ? low : value > high ? high : value;
@@ -18,11 +22,17 @@ double gb_hgrid_levels_reach(const double sphere[4], const double *margin, int64
     return sphere[3] + 0.5 * skin + (margin ? margin[i] : 0.0);
 }
 
-static int level_of(const struct gb_hgrid_search *search, double reach)
+/* Factors of 2 below the largest sphere. */
+static int factors_of(const struct gb_hgrid_search *search, double reach)
 {
     const double ratio = search->widest / reach;
     const int last = search->hgrid->levels - 1;
     return ratio < (double)(1 << last) ? ilogb(ratio) : last;
+}
+
+static int level_of(const struct gb_hgrid_search *search, double reach)
+{
+    return search->level_of[factors_of(search, reach)];
 }
 
 /* The grids cover the box along periodic axes, along others its part with spheres. */
@@ -100,6 +110,33 @@ static double wrapped(const struct gb_hgrid_search *search, int k, double x)
     return clamp(x - edge * floor((x - low) / edge), low, search->high[k]);
 }
 
+/* Spheres in a cell of a level that has so many. */
+static double crowd_of(const struct gb_hgrid_search *search, double widest, int64_t count)
+{
+    double cells = 1.0;
+    for (int k = 0; k < 3; k++) {
+        cells *= fmax((search->high[k] - search->low[k]) / (cell_width * widest), 1.0);
+    }
+    return (double)count / cells;
+}
+
+/* Smaller spheres go to the level before while its cells do not become crowded. */
+static void merge_levels(struct gb_hgrid_search *search)
+{
+    int into = 0;
+    for (int l = 1; l < GB_HGRID_LEVELS; l++) {
+        struct gb_hgrid_level *level = &search->level[l], *before = &search->level[into];
+        const int64_t both = before->count + level->count;
+        if (level->count > 0 && crowd_of(search, before->widest, both) > crowded) {
+            into = l;
+        } else {
+            before->count = both;
+            *level = (struct gb_hgrid_level){0};
+        }
+        search->level_of[l] = into;
+    }
+}
+
 /* Levels, their grids, and which cell each sphere lies in. */
 void gb_hgrid_levels_assign(struct gb_hgrid_search *search, const double (*sphere)[4],
                             const double *margin, double skin)
@@ -107,10 +144,11 @@ void gb_hgrid_levels_assign(struct gb_hgrid_search *search, const double (*spher
     struct gb_hgrid *hgrid = search->hgrid;
     for (int64_t i = 0; i < search->count; i++) {
         const double reach = gb_hgrid_levels_reach(sphere[i], margin, i, skin);
-        struct gb_hgrid_level *level = &search->level[level_of(search, reach)];
+        struct gb_hgrid_level *level = &search->level[factors_of(search, reach)];
         level->count++;
         level->widest = fmax(level->widest, reach);
     }
+    merge_levels(search);
     int32_t cells = 0;
     for (int l = 0; l < GB_HGRID_LEVELS; l++) {
         struct gb_hgrid_level *level = &search->level[l];

@@ -6,7 +6,7 @@
 /* First half of a build of hgrid.c: sorts spheres into levels of size, and within a level
  * into the cells of its grid.  Private to hgrid*.c. */
 
-/* Levels of size, each a factor of 2; spheres smaller than the last share it. */
+/* Levels of size, each at least a factor of 2; spheres smaller than the last share it. */
 enum { GB_HGRID_LEVELS = 16 };
 
 /* Grid cells per sphere of a level at most; where spheres are rarer the cells are wider.
@@ -29,6 +29,7 @@ struct gb_hgrid_search {
     int64_t found; /* pairs so far */
     double widest;
     struct gb_hgrid_level level[GB_HGRID_LEVELS]; /* the largest spheres first */
+    int level_of[GB_HGRID_LEVELS]; /* that of the spheres of each factor of 2 */
 };
 
 /* Reach of a sphere: radius, half the skin and margin.  Pairs closer than the sum of two
