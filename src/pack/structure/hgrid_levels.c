@@ -9,7 +9,7 @@ static const double cell_width = 2.0;
 
 /* Spheres in a cell up to which a level takes those of the next.  Four are compared at a time, and
  * a level more is nine rows of cells more for each sphere. */
-static const double crowded = 12.0;
+static const double per_cell_most = 12.0;
 
 static double clamp(double value, double low, double high)
 {
@@ -111,7 +111,8 @@ static double wrapped(const struct gb_hgrid_search *search, int k, double x)
 }
 
 /* Spheres in a cell of a level that has so many. */
-static double crowd_of(const struct gb_hgrid_search *search, double widest, int64_t count)
+static double spheres_per_cell(const struct gb_hgrid_search *search, double widest,
+                               int64_t count)
 {
     double cells = 1.0;
     for (int k = 0; k < 3; k++) {
@@ -120,14 +121,15 @@ static double crowd_of(const struct gb_hgrid_search *search, double widest, int6
     return (double)count / cells;
 }
 
-/* Smaller spheres go to the level before while its cells do not become crowded. */
+/* Smaller spheres go to the level before while a cell holds few. */
 static void merge_levels(struct gb_hgrid_search *search)
 {
     int into = 0;
     for (int l = 1; l < GB_HGRID_LEVELS; l++) {
         struct gb_hgrid_level *level = &search->level[l], *before = &search->level[into];
         const int64_t both = before->count + level->count;
-        if (level->count > 0 && crowd_of(search, before->widest, both) > crowded) {
+        if (level->count > 0 &&
+            spheres_per_cell(search, before->widest, both) > per_cell_most) {
             into = l;
         } else {
             before->count = both;
