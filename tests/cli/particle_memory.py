@@ -27,22 +27,15 @@ def peak(program, folder, count):
     return 1024 * usage.ru_maxrss
 
 
-def bytes_each(program):
-    """Of a particle, from two runs."""
-    with tempfile.TemporaryDirectory() as folder:
-        few, many = (peak(program, folder, count) for count in (FEW, MANY))
-    print(f"# {few / 1e6:.1f} MB with {FEW}, {many / 1e6:.1f} MB with {MANY} particles")
-    return (many - few) / (MANY - FEW)
-
-
 def main():
     program = sys.argv[1]
     os.environ["GB_PRESET_DIR"] = sys.argv[2]
     os.environ.pop("MALLOC_PERTURB_", None)  # it writes to spare room, which is resident then
     print("1..1")
-    # the image of a checkpoint, at most 2 MiB (110 bytes each), is seldom there while lists are built
-    each = bytes_each(program)
-    each = each if each < LIMIT else bytes_each(program)
+    with tempfile.TemporaryDirectory() as folder:
+        few, many = (peak(program, folder, count) for count in (FEW, MANY))
+    each = (many - few) / (MANY - FEW)
+    print(f"# {few / 1e6:.1f} MB with {FEW}, {many / 1e6:.1f} MB with {MANY} particles")
     print(f"{'ok' if each < LIMIT else 'not ok'} 1 - {each:.0f} bytes a particle, of {LIMIT}")
     return 0 if each < LIMIT else 1
 

@@ -214,6 +214,25 @@ static void test_periodic(void)
     gb_hgrid_finish(&hgrid);
 }
 
+/* Two sizes so far apart that no sphere is of the levels between, and so many of the large ones
+ * that their level takes no more; the small ones in a heap. */
+static void test_far_sizes(void)
+{
+    struct gb_hgrid hgrid;
+    g_assert_true(gb_hgrid_init(&hgrid, 0, NULL));
+    struct cloud cloud = make(4000, 10.0);
+    fill(&cloud, 1.0);
+    for (int64_t i = 0; i < cloud.count; i += 2) {
+        for (int k = 0; k < 3; k++) {
+            cloud.sphere[i][k] = 4.0 + 0.2 * cloud.sphere[i][k];
+        }
+        cloud.sphere[i][3] = 0.01;
+    }
+    check(&cloud, 0.05, &hgrid);
+    drop(&cloud);
+    gb_hgrid_finish(&hgrid);
+}
+
 /* Any number of threads finds the same pairs, however many parts there are. */
 static void test_threads(void)
 {
@@ -335,6 +354,7 @@ int main(int argc, char **argv)
     g_test_add_func("/hgrid/random", test_random);
     g_test_add_func("/hgrid/degenerate", test_degenerate);
     g_test_add_func("/hgrid/periodic", test_periodic);
+    g_test_add_func("/hgrid/far-sizes", test_far_sizes);
     g_test_add_func("/hgrid/threads", test_threads);
     g_test_add_func("/hgrid/guards", test_guards);
     g_test_add_func("/hgrid/memory", test_memory);

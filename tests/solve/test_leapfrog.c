@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
+#include "scene/tolerances.h"
 #include "solve/leapfrog.h"
 
 static void advance_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed)
@@ -160,6 +161,48 @@ static void test_critical(void)
     for (double safety = 0.1; safety < 1.0; safety += 0.2) {
         g_assert_cmpfloat(speed_after(&duo, speed, safety, 500.0), <, 1.1 * speed);
     }
+}
+
+/* Two elastic spheres of unequal sizes, a gap of 1e-6 apart, that close in at this speed. */
+static struct gb_bed *create_closing(double speed)
+{
+    const double radius[2] = {0.5, 0.2};
+    const struct gb_die die = bed_die(10.0);
+    const struct gb_bed_law law = bed_law();
+    struct gb_bed *bed = bed_create(2, radius, &die, &law);
+    bed_set_position(bed, 0, -0.5, 0.0, 5.0);
+    bed_set_position(bed, 1, 0.2 + 1e-6, 0.0, 5.0);
+    bed->velocity[1][0] = -speed;
+    return bed;
+}
+
+/* The step for an impact is the share of 2 T/pi of the collision that follows; nothing bounds it
+ * where spheres part or slip past each other. */
+static void test_impact(void)
+{
+    struct gb_error err = {0};
+    for (double speed = 1e-5; speed < 0.02; speed *= 30.0) {
+        struct gb_bed *bed = create_closing(speed);
+        g_assert_true(gb_bed_evaluate(bed, 0.0, 0.0, &err));
+        const double duration = gb_leapfrog_impact(bed) / (GB_IMPACT_SHARE * 2.0 / M_PI);
+        struct gb_leapfrog motion;
+        gb_leapfrog_init(&motion, 1.0, duration / 2000.0);
+        double touching = 0.0;
+        for (int step = 0; step < 5000; step++) {
+            advance_step(&motion, bed);
+            touching += bed->tally.stiffest > 0.0 ? motion.step : 0.0;
+        }
+        g_test_message("speed %g: %.6g, took %.6g", speed, duration, touching);
+        g_assert_cmpfloat(bed->velocity[1][0], >, 0.0);
+        g_assert_cmpfloat_with_epsilon(touching / duration, 1.0, 2e-3);
+        g_assert_true(isinf(gb_leapfrog_impact(bed)));
+        gb_bed_destroy(bed);
+    }
+    struct gb_bed *past = create_closing(0.0);
+    past->velocity[1][1] = 1e-3;
+    g_assert_true(gb_bed_evaluate(past, 0.0, 0.0, &err));
+    g_assert_true(isinf(gb_leapfrog_impact(past)));
+    gb_bed_destroy(past);
 }
 
 /* A straight chain of equal spheres, squeezed between floor and punch. */
@@ -352,6 +395,7 @@ int main(int argc, char **argv)
     g_test_add_func("/leapfrog/collision", test_collision);
     g_test_add_func("/leapfrog/closed", test_closed);
     g_test_add_func("/leapfrog/critical", test_critical);
+    g_test_add_func("/leapfrog/impact", test_impact);
     g_test_add_func("/leapfrog/chain", test_chain);
     g_test_add_func("/leapfrog/modes", test_modes);
     return g_test_run();

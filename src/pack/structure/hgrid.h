@@ -33,8 +33,8 @@ struct gb_hgrid {
     int64_t *start; /* capacity + 1 */
     int32_t *other;
     int levels; /* at most; 1: the plain grid, to compare with */
-    struct gb_team
-        *team; /* that searches, not owned; NULL: one thread.  The pairs are the same. */
+    /* That searches, not owned; NULL: one thread.  The pairs are the same. */
+    struct gb_team *team;
 
     int64_t capacity, pair_capacity, cell_capacity;
     double *sorted[GB_HGRID_ROWS]; /* spheres by level, then by grid cell */
