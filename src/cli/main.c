@@ -183,18 +183,21 @@ static int dispatch(int argc, char **argv)
 
 /* Memory of large arrays goes back to the system when they are freed: the C library would
  * come to keep those of up to 32 MB, of every thread. */
-static void return_freed_memory(void)
+static void set_heap(void)
 {
 #ifdef __GLIBC__
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
     (void)mallopt(M_TRIM_THRESHOLD, 4 << 20);
+    /* A thread that finds no 64 MB of addresses for a heap of its own has a page mapped for
+     * every small piece, and HDF5, which asks for thousands, ends the program. */
+    (void)mallopt(M_ARENA_MAX, 1);
 #endif
 }
 
 int main(int argc, char **argv)
 {
     gb_program_name_process();
-    return_freed_memory();
+    set_heap();
     gb_hdf_skip_exit();
     /* Text in the user's locale, numbers always with a decimal point. */
     setlocale(LC_ALL, "");

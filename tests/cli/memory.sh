@@ -20,7 +20,9 @@ until (ulimit -v $least && exec "$greenbody" --version) >stdout 2>stderr; do
     least=$((least + 20000))
 done
 short=0
-for more in 30000 60000 74000 78000 82000 86000 90000 100000 110000 130000; do
+whole=0
+more=2000
+while [ $whole -lt 2 ] && [ $more -lt 500000 ]; do
     limited $((least + more))
     status=$?
     [ $status -eq 0 ] || [ $status -eq 3 ]
@@ -29,9 +31,13 @@ for more in 30000 60000 74000 78000 82000 86000 90000 100000 110000 130000; do
         short=$((short + 1))
         is 'one line says why' [ "$(wc -l <stderr)" -eq 1 ]
         is 'the word is memory' grep -q memory stderr
+    else
+        whole=$((whole + 1))
     fi
+    more=$((more + 4000))
 done
 is 'memory was out in some of them' [ $short -gt 2 ]
+is 'and was enough in others' [ $whole -eq 2 ]
 
 echo "1..$tests"
 exit $bad
