@@ -15,7 +15,7 @@ enum { IMAGE_STEP = 1 << 20 }; /* growth of the image */
 enum { MARGIN = 8 << 20 };     /* left for small pieces */
 
 /* Beyond this an image is a mapped file, which grows by FILE_STEP. */
-enum { IMAGE_MAX = 2 << 20, FILE_STEP = 2 << 20 };
+enum { IMAGE_MAX = 1 << 20, FILE_STEP = 2 << 20 };
 
 /* Whether there is room for so much more, and for small pieces, without which HDF5 ends the
  * program.  Pages that are mapped and never written cost nothing; the heap may fill what it
