@@ -187,6 +187,24 @@ static bool angular_rows(struct gb_array_source *packing, enum gb_array_angular 
     return *angles && world_rows(world, *angles, rows);
 }
 
+/* The same for a bed, whose arcs are radii times angles. */
+static bool bed_angles(struct gb_array_source *packing, enum gb_array_angular which,
+                       const gb_bed_row *arcs, int power, struct rows *rows,
+                       struct gb_error *err)
+{
+    const struct gb_bed *bed = bed_of(packing);
+    double **angles = &packing->angular[which];
+    if (!*angles) {
+        *angles = gb_alloc_array(3 * (size_t)bed->count, sizeof **angles, err);
+        for (int64_t k = 0; *angles && k < 3 * bed->count; k++) {
+            const double radius = bed->position[k / 3][3];
+            (*angles)[k] = arcs[k / 3][k % 3] * (power > 0 ? radius : 1.0 / radius);
+        }
+    }
+    *rows = (struct rows){.data = *angles, .count = bed->count};
+    return *angles != NULL;
+}
+
 static bool find_force(struct gb_array_source *packing, struct rows *rows,
                        struct gb_error *err)
 {
@@ -203,7 +221,8 @@ static bool find_torque(struct gb_array_source *packing, struct rows *rows,
 {
     struct gb_world *world = world_of(packing);
     const struct gb_bed *bed = bed_of(packing);
-    return bed     ? bed_rows(bed, (const gb_bed_row *)bed->torque, rows)
+    return bed ? bed_angles(packing, GB_ARRAY_TORQUE, (const gb_bed_row *)bed->moment, 1,
+                            rows, err)
            : world ? angular_rows(packing, GB_ARRAY_TORQUE,
                                   gb_world_readable(world).torque, 1, rows, err)
                    : listed(packing, offsetof(struct gb_state, torque),
@@ -234,7 +253,8 @@ static bool find_spin(struct gb_array_source *packing, struct rows *rows,
 {
     const struct gb_bed *bed = bed_of(packing);
     const struct gb_verlet *verlet = verlet_of(packing);
-    return bed      ? bed_rows(bed, (const gb_bed_row *)bed->spin, rows)
+    return bed ? bed_angles(packing, GB_ARRAY_SPIN, (const gb_bed_row *)bed->roll, -1,
+                            rows, err)
            : verlet ? angular_rows(packing, GB_ARRAY_SPIN, verlet->spin, -1, rows, err)
                     : listed(packing, offsetof(struct gb_state, spin),
                              offsetof(struct gb_state, count), rows, err);
@@ -297,8 +317,7 @@ static bool find_stress(struct gb_array_source *packing, struct rows *rows,
 static const struct array_row table[] = {
     {"position", GB_ARRAY_DOUBLE, 3, LENGTH, find_position, "particles x 3, d"},
     {"diameter", GB_ARRAY_DOUBLE, 1, LENGTH, find_diameter, "particles, d"},
-    {"force", GB_ARRAY_DOUBLE, 3, FORCE, find_force,
-     "particles x 3, E d^2: resultant"},
+    {"force", GB_ARRAY_DOUBLE, 3, FORCE, find_force, "particles x 3, E d^2: resultant"},
     {"torque", GB_ARRAY_DOUBLE, 3, MOMENT, find_torque,
      "particles x 3, E d^3: resultant"},
     {"velocity", GB_ARRAY_DOUBLE, 3, SPEED, find_velocity,

@@ -16,7 +16,7 @@ double gb_leapfrog_critical(const struct gb_bed *bed)
 {
     const double smooth = bed->tally.stiffest;
     /* k_t (1/m + R^2/I) of a spring; two across each normal, one of a lone wall's along a mode */
-    const double across = bed->law.shear * (1.0 + 2.5 / bed->inertia_scale);
+    const double across = bed->law.shear * (1.0 + 1.0 / bed->inertia);
     const int rubbed = bed->law.mu > 0.0 ? 2 : bed->law.mu_wall > 0.0 ? 1 : 0;
     const int springs = rubbed + (bed->welds ? 2 : 0);
     const double rough = smooth * (1.0 + springs * across);
@@ -58,9 +58,9 @@ static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed 
 static double kick(const struct gb_leapfrog *leapfrog, struct gb_bed *bed, double step)
 {
     const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
-                                          .torque = (const gb_bed_row *)bed->torque,
+                                          .moment = (const gb_bed_row *)bed->moment,
                                           .inverse_mass = bed->inverse_mass,
-                                          .inverse_inertia = bed->inverse_inertia,
+                                          .inertia = bed->inertia,
                                           .step = step,
                                           .gravity = leapfrog->gravity,
                                           .drag = leapfrog->drag};

@@ -11,6 +11,7 @@
 #include <gsl/gsl_statistics.h>
 
 #include "base/clock.h"
+#include "base/vec.h"
 #include "measure/observe_die.h"
 #include "pack/die/bed_order.h"
 #include "solve/leapfrog.h"
@@ -38,7 +39,7 @@ static bool settle(struct gb_bed **bed, const GArray *spheres, struct gb_error *
     for (int64_t i = 0; done && i < count; i++) {
         memcpy((*bed)->position[i], sphere[i].x, sizeof sphere->x);
         memcpy((*bed)->velocity[i], sphere[i].v, sizeof sphere->v);
-        memcpy((*bed)->spin[i], sphere[i].w, sizeof sphere->w);
+        gb_vec_add((*bed)->roll[i], radius[i], sphere[i].w);
         (*bed)->position[i][2] += 10.0 - low;
     }
     g_free(radius);

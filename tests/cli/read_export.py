@@ -66,8 +66,12 @@ def state_arrays():
         if 'world/torque' in record:
             same('torque of the checkpoint', arrays['torque'],
                  nn * nm * 2.0 * file['radius'][:][:, None] * record['world/torque'][:])
-        if 'bed/spin' in record:
-            same('spin of the checkpoint', arrays['spin'], record['bed/spin'][:, :3] / ns)
+        if 'bed/roll' in record:
+            radius = file['radius'][:][:, None]
+            same('spin of the checkpoint', arrays['spin'] * radius,
+                 record['bed/roll'][:, :3] / ns)
+            same('torque of the checkpoint', arrays['torque'],
+                 nn * nm * radius * record['bed/moment'][:, :3])
         if 'world/force' in record:
             same('force of the checkpoint', arrays['force'], nn * record['world/force'][:])
     return arrays

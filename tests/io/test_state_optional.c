@@ -176,24 +176,28 @@ static void test_cell_checkpoint(void)
     gb_state_destroy(state);
 }
 
-/* Rows of four; no arcs. */
+/* Rows of four, arcs by the radii 0.5, 1, 2; earlier versions had angles. */
 static void test_die_checkpoint(void)
 {
-    struct gb_state *state = make_state(5.0);
-    struct gb_record *record = g_new0(struct gb_record, 1);
-    add(record, "bed/speed", 4);
-    add(record, "bed/spin", 4);
-    add(record, "bed/torque", 4);
-    write_file(state, record);
-    struct gb_state *back = read_back();
-    g_assert_cmpfloat(back->velocity[3], ==, 5.0);
-    g_assert_cmpfloat(back->spin[8], ==, 11.0);
-    g_assert_cmpfloat(back->torque[8], ==, 11.0);
-    g_assert_null(back->force);
-    gb_state_destroy(back);
-    gb_record_finish(record);
-    g_free(record);
-    gb_state_destroy(state);
+    for (int arcs = 0; arcs < 2; arcs++) {
+        struct gb_state *state = make_state(5.0);
+        struct gb_record *record = g_new0(struct gb_record, 1);
+        add(record, "bed/speed", 4);
+        add(record, arcs ? "bed/roll" : "bed/spin", 4);
+        add(record, arcs ? "bed/moment" : "bed/torque", 4);
+        write_file(state, record);
+        struct gb_state *back = read_back();
+        g_assert_cmpfloat(back->velocity[3], ==, 5.0);
+        g_assert_cmpfloat(back->spin[0], ==, arcs ? 2.0 : 1.0);
+        g_assert_cmpfloat(back->spin[8], ==, arcs ? 5.5 : 11.0);
+        g_assert_cmpfloat(back->torque[0], ==, arcs ? 0.5 : 1.0);
+        g_assert_cmpfloat(back->torque[8], ==, arcs ? 22.0 : 11.0);
+        g_assert_null(back->force);
+        gb_state_destroy(back);
+        gb_record_finish(record);
+        g_free(record);
+        gb_state_destroy(state);
+    }
 }
 
 static void refuse(const char *part)

@@ -41,7 +41,7 @@ static struct gb_bed *powder(void)
                          0.4 + 11.2 * g_rand_double(rand));
         for (int k = 0; k < 3; k++) {
             bed->velocity[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
-            bed->spin[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
+            bed->roll[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
         }
     }
     g_rand_free(rand);
@@ -58,9 +58,9 @@ static void move(struct gb_bed *bed, int steps)
         bed->die.punch_position += step * bed->die.punch_velocity;
         g_assert_true(gb_bed_evaluate_blocks(bed, step, deviation2, &err));
         const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
-                                              .torque = (const gb_bed_row *)bed->torque,
+                                              .moment = (const gb_bed_row *)bed->moment,
                                               .inverse_mass = bed->inverse_mass,
-                                              .inverse_inertia = bed->inverse_inertia,
+                                              .inertia = bed->inertia,
                                               .step = step,
                                               .drag = 2.0};
         gb_bed_drift_kick(bed, &by);
@@ -137,7 +137,7 @@ static void test_crossings(void)
 
 /* Sums that no numbering changes but for rounding. */
 struct sums {
-    double force, torque, shear, deepest, x, spin;
+    double force, moment, shear, deepest, x, roll;
     int64_t touching;
 };
 
@@ -162,9 +162,9 @@ static struct sums sums_of(struct gb_bed *bed)
     g_assert_true(gb_bed_evaluate(bed, 0.02, HUGE_VAL, &err));
     for (int64_t i = 0; i < bed->count; i++) {
         sums.force += gb_vec_length(bed->force[i]) / bed->mass[i];
-        sums.torque += gb_vec_length(bed->torque[i]) * bed->inverse_inertia[i];
+        sums.moment += gb_vec_length(bed->moment[i]) * bed->inverse_mass[i];
         sums.x += gb_vec_length(bed->position[i]) * bed->position[i][3];
-        sums.spin += gb_vec_length(bed->spin[i]) * bed->position[i][3];
+        sums.roll += gb_vec_length(bed->roll[i]);
     }
     add_list(&sums, &bed->pairs);
     add_list(&sums, &bed->walls);

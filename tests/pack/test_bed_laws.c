@@ -280,9 +280,9 @@ static void test_transfer(void)
                 memcpy(out[wide][1], row[4], sizeof row[4]);
                 const struct gb_bed_rows rows = {.position = (const gb_bed_row *)row[0],
                                                  .velocity = (const gb_bed_row *)row[1],
-                                                 .spin = (const gb_bed_row *)row[2],
+                                                 .roll = (const gb_bed_row *)row[2],
                                                  .force = out[wide][0],
-                                                 .torque = out[wide][1],
+                                                 .moment = out[wide][1],
                                                  .first = first,
                                                  .other = other,
                                                  .target = target,
@@ -309,8 +309,7 @@ static void test_transfer(void)
             g_assert_cmpfloat(batch[0].held[last], ==,
                               row[1][first[last]][3] + row[1][other[last]][3]);
             g_assert_cmpfloat(batch[0].roll[1][last], ==,
-                              friction ? xi[3] * row[2][first[last]][1] +
-                                             xj[3] * row[2][other[last]][1]
+                              friction ? row[2][first[last]][1] + row[2][other[last]][1]
                                        : 0.0);
         }
     }

@@ -102,7 +102,7 @@ static void test_shear(void)
         double moment[3];
         gb_vec_cross(bed->position[i], bed->force[i], moment);
         gb_vec_add(total, 1.0, moment);
-        gb_vec_add(total, 1.0, bed->torque[i]);
+        gb_vec_add(total, bed->position[i][3], bed->moment[i]);
     }
     g_assert_cmpfloat(gb_vec_length(total), <, 1e-12);
     for (int k = 0; k < 10; k++) {
@@ -113,8 +113,8 @@ static void test_shear(void)
     /* rolling like gears slides nowhere */
     const double held = bed->force[0][1];
     bed->velocity[0][1] = 0.0;
-    bed->spin[0][2] = 0.01 / 0.5;
-    bed->spin[1][2] = -0.01 / 0.4;
+    bed->roll[0][2] = 0.01;
+    bed->roll[1][2] = -0.01;
     bed_evaluate(bed, step);
     g_assert_cmpfloat_with_epsilon(bed->force[0][1] / held, 1.0, 1e-9);
     gb_bed_destroy(bed);

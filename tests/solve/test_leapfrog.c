@@ -333,6 +333,12 @@ static void add_springs(const struct gb_bed *bed, const struct mode *motion,
     }
 }
 
+static double inertia(const struct gb_bed *bed, int i)
+{
+    const double radius = bed->position[i][3];
+    return bed->inertia * bed->mass[i] * radius * radius;
+}
+
 /* Largest omega^2 of the bed by power iteration, from below. */
 static double fastest_mode(const struct gb_bed *bed, GRand *rand)
 {
@@ -350,7 +356,7 @@ static double fastest_mode(const struct gb_bed *bed, GRand *rand)
         add_springs(bed, &motion, &force);
         for (int i = 0; i < HEAP; i++) {
             energy += bed->mass[i] * gb_vec_dot(motion.u[i], motion.u[i]) +
-                      gb_vec_dot(motion.w[i], motion.w[i]) / bed->inverse_inertia[i];
+                      inertia(bed, i) * gb_vec_dot(motion.w[i], motion.w[i]);
             power +=
                 gb_vec_dot(motion.u[i], force.u[i]) + gb_vec_dot(motion.w[i], force.w[i]);
         }
@@ -359,7 +365,7 @@ static double fastest_mode(const struct gb_bed *bed, GRand *rand)
             memcpy(motion.u[i], force.u[i], sizeof motion.u[i]);
             memcpy(motion.w[i], force.w[i], sizeof motion.w[i]);
             gb_vec_scale(motion.u[i], bed->inverse_mass[i] / sqrt(energy));
-            gb_vec_scale(motion.w[i], bed->inverse_inertia[i] / sqrt(energy));
+            gb_vec_scale(motion.w[i], 1.0 / (inertia(bed, i) * sqrt(energy)));
         }
     }
     return square;

@@ -20,20 +20,21 @@ struct optional_row {
     bool of_pairs;
     size_t member;
     const char *cell, *bed; /* items: of a periodic cell, of a die; NULL: none */
-    int power; /* of the diameter that turns the arcs of the cell's item into angles */
+    int power; /* of what turns their arcs into angles: diameter of a cell's, radius of a die's */
+    const char *angles; /* item of a die of earlier versions, which had no arcs */
 };
 
 static const struct optional_row rows[] = {
     {"/velocity", "d/T", 3, false, offsetof(struct gb_state, velocity), "motion/velocity",
-     "bed/speed", 0},
-    {"/spin", "1/T", 3, false, offsetof(struct gb_state, spin), "motion/spin", "bed/spin",
-     -1},
+     "bed/speed", 0, NULL},
+    {"/spin", "1/T", 3, false, offsetof(struct gb_state, spin), "motion/spin", "bed/roll",
+     -1, "bed/spin"},
     {"/force", "E d^2", 3, false, offsetof(struct gb_state, force), "world/force",
-     "bed/force", 0},
+     "bed/force", 0, NULL},
     {"/torque", "E d^3", 3, false, offsetof(struct gb_state, torque), "world/torque",
-     "bed/torque", 1},
+     "bed/moment", 1, "bed/torque"},
     {"/contact_radius", "d", 1, true, offsetof(struct gb_state, contact_radius), NULL,
-     NULL, 0},
+     NULL, 0, NULL},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -120,11 +121,12 @@ static void fill_rows(const struct gb_state *state, const struct optional_row *r
                       const struct gb_record_item *item, int64_t begin, int64_t end,
                       double *to)
 {
+    const double lengths = state->die_radius > 0.0 ? 1.0 : 2.0;
     for (int64_t i = begin; i < end; i++) {
-        const double diameter = 2.0 * state->radius[i];
-        const double factor = state->die_radius > 0.0 || row->power == 0 ? 1.0
-                              : row->power > 0                           ? diameter
-                                                                         : 1.0 / diameter;
+        const double length = lengths * state->radius[i];
+        const double factor = row->power == 0  ? 1.0
+                              : row->power > 0 ? length
+                                               : 1.0 / length;
         for (int c = 0; c < row->columns; c++) {
             to[row->columns * (i - begin) + c] =
                 factor * gb_record_number(item, item->columns * i + c);
@@ -142,6 +144,22 @@ static int item_columns(const struct gb_state *state, const struct optional_row 
     return state->die_radius > 0.0 ? BED_COLUMNS : row->columns;
 }
 
+/* The row as records of earlier versions have it. */
+static struct optional_row earlier(const struct optional_row *row)
+{
+    struct optional_row before = *row;
+    before.bed = row->angles;
+    before.power = 0;
+    return before;
+}
+
+/* The row that the record has, now or in earlier versions. */
+static struct optional_row fitting(const struct optional_row *row,
+                                   const struct gb_record *record)
+{
+    return row->angles && gb_record_find(record, row->angles) ? earlier(row) : *row;
+}
+
 /* The item of an array that the record has; NULL without one. */
 static const struct gb_record_item *find_item(const struct gb_state *state,
                                               const struct optional_row *row,
@@ -155,7 +173,8 @@ bool gb_state_optional_check(const struct gb_state *state, const struct gb_recor
                              struct gb_error *err)
 {
     for (int k = 0; k < ROWS; k++) {
-        const struct gb_record_item *item = find_item(state, &rows[k], record);
+        const struct optional_row row = fitting(&rows[k], record);
+        const struct gb_record_item *item = find_item(state, &row, record);
         if (item && (item->type != GB_RECORD_DOUBLE || item->rows != state->count ||
                      item->columns != item_columns(state, &rows[k]))) {
             return gb_error_set(err, GB_ERR_INPUT, "%s: is of another shape", item->name);
@@ -171,13 +190,13 @@ bool gb_state_optional_take(struct gb_state *state, const struct gb_record *reco
         return false;
     }
     for (int k = 0; k < ROWS; k++) {
-        const struct gb_record_item *item = find_item(state, &rows[k], record);
-        if (item && !allocate(state, &rows[k], err)) {
+        const struct optional_row row = fitting(&rows[k], record);
+        const struct gb_record_item *item = find_item(state, &row, record);
+        if (item && !allocate(state, &row, err)) {
             return false;
         }
         if (item) {
-            fill_rows(state, &rows[k], item, 0, state->count,
-                      *member_of(state, &rows[k]));
+            fill_rows(state, &row, item, 0, state->count, *member_of(state, &row));
         }
     }
     return true;
@@ -317,7 +336,10 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
                             path, sum_name);
     }
     for (int k = 0; k < ROWS && done && !some; k++) {
-        done = read_item(state, &rows[k], file, err);
+        const struct optional_row before = earlier(&rows[k]);
+        done = read_item(state, &rows[k], file, err) &&
+               (rows[k].angles == NULL || data_of(state, &rows[k]) != NULL ||
+                read_item(state, &before, file, err));
     }
     double second = 0.0;
     const bool timed =

@@ -26,7 +26,7 @@ static double square(const double x[3])
 static bool allocate(struct gb_bed *bed, struct gb_error *err)
 {
     gb_bed_row **const rows[] = {
-        &bed->position,       &bed->velocity,        &bed->spin,
+        &bed->position,       &bed->velocity,        &bed->roll,
         &bed->built_position, &bed->listed_position, &bed->listed_velocity};
     struct gb_bed_list *const lists[] = {&bed->pairs, &bed->previous_pairs, &bed->walls,
                                          &bed->previous_walls};
@@ -47,7 +47,7 @@ static bool allocate(struct gb_bed *bed, struct gb_error *err)
         !gb_bed_list_make_rows(bed, err)) {
         return false;
     }
-    double **const numbers[] = {&bed->mass, &bed->inverse_mass, &bed->inverse_inertia};
+    double **const numbers[] = {&bed->mass, &bed->inverse_mass};
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         *numbers[k] = gb_alloc_array((size_t)bed->count, sizeof **numbers[k], err);
         if (!*numbers[k]) {
@@ -67,7 +67,7 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
     }
     bed->count = count;
     bed->die = *die;
-    bed->inertia_scale = inertia_scale;
+    bed->inertia = 0.4 * inertia_scale;
     if (!allocate(bed, err) || !gb_hgrid_init(&bed->hgrid, count, err)) {
         gb_bed_destroy(bed);
         return false;
@@ -112,11 +112,9 @@ int64_t gb_bed_crossing_rows(const struct gb_bed *bed)
 void gb_bed_weigh(struct gb_bed *bed)
 {
     for (int64_t i = 0; i < bed->count; i++) {
-        const double radius = bed->position[i][3], d = 2.0 * radius;
+        const double d = 2.0 * bed->position[i][3];
         bed->mass[i] = d * d * d;
         bed->inverse_mass[i] = 1.0 / bed->mass[i];
-        bed->inverse_inertia[i] =
-            1.0 / (0.4 * bed->mass[i] * radius * radius * bed->inertia_scale);
     }
 }
 
@@ -127,9 +125,9 @@ void gb_bed_destroy(struct gb_bed *bed)
     }
     gb_alloc_free(bed->position);
     gb_alloc_free(bed->velocity);
-    gb_alloc_free(bed->spin);
+    gb_alloc_free(bed->roll);
     gb_alloc_free(bed->force);
-    gb_alloc_free(bed->torque);
+    gb_alloc_free(bed->moment);
     gb_alloc_free(bed->built_position);
     gb_alloc_free(bed->listed_position);
     gb_alloc_free(bed->listed_velocity);
@@ -139,7 +137,6 @@ void gb_bed_destroy(struct gb_bed *bed)
     gb_team_destroy(bed->team);
     gb_alloc_free(bed->mass);
     gb_alloc_free(bed->inverse_mass);
-    gb_alloc_free(bed->inverse_inertia);
     gb_hgrid_finish(&bed->hgrid);
     gb_bed_list_finish(&bed->pairs);
     gb_bed_list_finish(&bed->previous_pairs);
@@ -327,7 +324,7 @@ struct gb_bed_kinetic_energy gb_bed_kinetic_energy(const struct gb_bed *bed)
     struct gb_bed_kinetic_energy sum = {0.0, 0.0};
     for (int64_t i = 0; i < bed->count; i++) {
         sum.translational += 0.5 * bed->mass[i] * square(bed->velocity[i]);
-        sum.rotational += 0.5 * square(bed->spin[i]) / bed->inverse_inertia[i];
+        sum.rotational += 0.5 * bed->inertia * bed->mass[i] * square(bed->roll[i]);
     }
     return sum;
 }

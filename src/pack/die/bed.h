@@ -15,9 +15,10 @@
  * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
  * fourth of a row is the radius in `position`, in `force` the sum of the normal stiffnesses of
  * the contacts (E d), in `velocity` that over the mass at the last step (1/T^2), and 0
- * elsewhere.  Behind the rows of the particles are those of the walls (enum gb_die_wall); `force`
- * and `torque` have the walls once for each block, and then the crossings
- * (pack/die/bed_blocks.h). */
+ * elsewhere.  Rotation is that of the surface: `roll` is R w (d/T) and `moment` the torque over R
+ * (E d^2), so that contacts need no radius for them.  Behind the rows of the particles are those of
+ * the walls (enum gb_die_wall); `force` and `moment` have the walls once for each block, and then
+ * the crossings (pack/die/bed_blocks.h). */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */
@@ -26,7 +27,7 @@ struct gb_bed_list {
     int64_t *start; /* particles + 1 */
     int64_t room;
     int32_t *first, *other; /* of each slot */
-    int32_t *target;        /* row of `force` and `torque` for the second */
+    int32_t *target;        /* row of `force` and `moment` for the second */
     struct gb_bed_contacts contacts;
 };
 
@@ -34,10 +35,9 @@ struct gb_bed_welds;
 
 struct gb_bed {
     int64_t count;
-    gb_bed_row *position, *velocity, *spin, *force, *torque;
-    double *mass, *inverse_mass,
-        *inverse_inertia; /* and one over mass and 2/5 m R^2 x scale */
-    double inertia_scale; /* of 2/5 m R^2; 10 in P3 */
+    gb_bed_row *position, *velocity, *roll, *force, *moment;
+    double *mass, *inverse_mass;
+    double inertia; /* moment of inertia over m R^2: 2/5, times 10 in P3 */
     struct gb_die die;
     struct gb_bed_law law;
     gb_bed_kernel *pair_kernel, *wall_kernel;
@@ -46,7 +46,7 @@ struct gb_bed {
     struct gb_bed_tally tally; /* of the last evaluation */
     struct gb_bed_blocks blocks;
     struct gb_team *team;       /* NULL: one thread */
-    int64_t force_room;         /* rows of `force` and `torque` */
+    int64_t force_room;         /* rows of `force` and `moment` */
     struct gb_bed_welds *welds; /* of the compact; NULL: none */
     double smallest;            /* radius */
     int32_t *counts;            /* one per particle, for measures to count in */
@@ -82,11 +82,11 @@ bool gb_bed_use_threads(struct gb_bed *bed, int threads, struct gb_error *err);
  * core finds its rows where it left them. */
 void gb_bed_run_blocks(struct gb_bed *bed, gb_team_item *work, void *data);
 
-/* First row of `force` and `torque` for the walls of block b, and for the crossings. */
+/* First row of `force` and `moment` for the walls of block b, and for the crossings. */
 int64_t gb_bed_wall_rows(const struct gb_bed *bed, int64_t b);
 int64_t gb_bed_crossing_rows(const struct gb_bed *bed);
 
-/* Masses and moments of inertia of the present radii. */
+/* Masses of the present radii. */
 void gb_bed_weigh(struct gb_bed *bed);
 
 /* Replaces the law; all contacts lose their history. */

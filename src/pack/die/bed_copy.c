@@ -51,7 +51,7 @@ bool gb_bed_copy_take(const struct gb_bed *bed, struct gb_bed_copy **copy,
     if (!*copy && !make_copy(copy, bed->count, err)) {
         return false;
     }
-    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->spin};
+    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->roll};
     for (int k = 0; k < ROW_KINDS; k++) {
         memcpy((*copy)->rows + k * bed->count, rows[k],
                (size_t)bed->count * sizeof *rows[k]);
@@ -66,7 +66,7 @@ bool gb_bed_copy_take(const struct gb_bed *bed, struct gb_bed_copy **copy,
 bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
                          struct gb_error *err)
 {
-    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->spin};
+    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->roll};
     for (int k = 0; k < ROW_KINDS; k++) {
         memcpy(rows[k], copy->rows + k * bed->count,
                (size_t)bed->count * sizeof *rows[k]);
@@ -123,7 +123,7 @@ uint64_t gb_bed_copy_hash(const struct gb_bed *bed)
     uint64_t hash = UINT64_C(14695981039346656037);
     hash = mix(hash, bed->position, bytes);
     hash = mix(hash, bed->velocity, bytes);
-    hash = mix(hash, bed->spin, bytes);
+    hash = mix(hash, bed->roll, bytes);
     hash = mix(hash, &bed->die.punch_position, sizeof bed->die.punch_position);
     hash = mix(hash, &bed->die.punch_velocity, sizeof bed->die.punch_velocity);
     if (bed->die.bore != GB_DIE_BORE_ENDLESS) {

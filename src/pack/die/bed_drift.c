@@ -37,11 +37,10 @@ static void kick_block(void *data, int64_t b)
     struct gb_bed_motion_kick by = motion->kick;
     gb_bed_sweep_sum_block(bed, b);
     by.force += begin;
-    by.torque += begin;
+    by.moment += begin;
     by.inverse_mass += begin;
-    by.inverse_inertia += begin;
     bed->blocks.block[b].fastest = gb_bed_motion_kick(
-        bed->velocity + begin, bed->spin + begin, particles_of(bed, b), &by);
+        bed->velocity + begin, bed->roll + begin, particles_of(bed, b), &by);
 }
 
 /* The larger one; not a number if one of them is not. */

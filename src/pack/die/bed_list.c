@@ -309,8 +309,8 @@ bool gb_bed_list_make_rows(struct gb_bed *bed, struct gb_error *err)
         return true;
     }
     const size_t kept = bed->force ? (size_t)bed->count * sizeof *bed->force : 0;
-    gb_bed_row *const old[2] = {bed->force, bed->torque};
-    gb_bed_row **const all[2] = {&bed->force, &bed->torque};
+    gb_bed_row *const old[2] = {bed->force, bed->moment};
+    gb_bed_row **const all[2] = {&bed->force, &bed->moment};
     gb_bed_row *grown[2];
     bed->force_room = rows + rows / 4;
     for (int k = 0; k < 2; k++) {

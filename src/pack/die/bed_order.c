@@ -141,7 +141,7 @@ bool gb_bed_order_renumber(struct gb_bed *bed, struct gb_error *err)
     if (done) {
         permute(bed->position, scratch, order, bed->count);
         permute(bed->velocity, scratch, order, bed->count);
-        permute(bed->spin, scratch, order, bed->count);
+        permute(bed->roll, scratch, order, bed->count);
         gb_bed_weigh(bed);
         gb_bed_invalidate_lists(bed);
     }

@@ -7,6 +7,7 @@
 #include <gsl/gsl_sort.h>
 
 #include "base/alloc.h"
+#include "base/vec.h"
 #include "pack/cell/record_checks.h"
 #include "pack/die/bed_list.h"
 #include "pack/die/bed_welds.h"
@@ -56,6 +57,30 @@ static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
 {
     return gb_record_array(record, name, GB_RECORD_DOUBLE, bed->count, 4, unit, data,
                            err);
+}
+
+/* Records of earlier versions have the angular velocity and the torque themselves. */
+static bool load_angles(struct gb_bed *bed, struct gb_record *record,
+                        struct gb_error *err)
+{
+    const bool done = rows(bed, record, "bed/spin", "1/T", bed->roll, err) &&
+                      rows(bed, record, "bed/torque", "E d^3", bed->moment, err);
+    for (int64_t i = 0; i < bed->count && done; i++) {
+        gb_vec_scale(bed->roll[i], bed->position[i][3]);
+        gb_vec_scale(bed->moment[i], 1.0 / bed->position[i][3]);
+    }
+    return done;
+}
+
+/* After the positions, whose rows have the radii. */
+static bool record_rotation(struct gb_bed *bed, struct gb_record *record,
+                            struct gb_error *err)
+{
+    if (record->loading && !gb_record_find(record, "bed/roll")) {
+        return load_angles(bed, record, err);
+    }
+    return rows(bed, record, "bed/roll", "d/T", bed->roll, err) &&
+           rows(bed, record, "bed/moment", "E d^2", bed->moment, err);
 }
 
 static bool finite_positions(const struct gb_bed *bed)
@@ -185,10 +210,8 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
                              err) &&
            rows(bed, record, "bed/place", "d", bed->position, err) &&
            rows(bed, record, "bed/speed", "d/T", bed->velocity, err) &&
-           rows(bed, record, "bed/spin", "1/T", bed->spin, err) &&
            rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
-           rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&
-           accept_positions(bed, record, err) &&
+           record_rotation(bed, record, err) && accept_positions(bed, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_PARTICLE, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err) &&
            record_ejection(bed, record, err) && gb_bed_welds_record(bed, record, err);

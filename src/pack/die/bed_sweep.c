@@ -15,7 +15,7 @@ static void clear_rows(const struct gb_bed *bed, int64_t begin, int64_t end)
 {
     const size_t bytes = (size_t)(end - begin) * sizeof(gb_bed_row);
     memset(bed->force + begin, 0, bytes);
-    memset(bed->torque + begin, 0, bytes);
+    memset(bed->moment + begin, 0, bytes);
 }
 
 static void clear_block(const struct gb_bed *bed, int64_t b)
@@ -31,9 +31,9 @@ static void sweep_pairs(struct gb_bed *bed, int64_t b, struct gb_bed_batch *batc
 {
     struct gb_bed_rows rows = {.position = (const gb_bed_row *)bed->position,
                                .velocity = (const gb_bed_row *)bed->velocity,
-                               .spin = (const gb_bed_row *)bed->spin,
+                               .roll = (const gb_bed_row *)bed->roll,
                                .force = bed->force,
-                               .torque = bed->torque,
+                               .moment = bed->moment,
                                .friction = bed->law.mu > 0.0};
     const int64_t end = bed->pairs.start[gb_bed_blocks_end(bed->count, b)];
     batch->mu = bed->law.mu;
@@ -63,20 +63,26 @@ static void sweep_block(void *data, int64_t b)
     bed->blocks.block[b].tally.impact = batch.impact;
 }
 
+/* Rows of a crossing onto a particle: never the same. */
+static void add_row(double *restrict to, const double *restrict row)
+{
+    for (int k = 0; k < 4; k++) {
+        to[k] += row[k];
+    }
+}
+
 void gb_bed_sweep_sum_block(struct gb_bed *bed, int64_t b)
 {
     const struct gb_bed_blocks *blocks = &bed->blocks;
     const gb_bed_row *force = (const gb_bed_row *)bed->force + gb_bed_crossing_rows(bed);
-    const gb_bed_row *torque =
-        (const gb_bed_row *)bed->torque + gb_bed_crossing_rows(bed);
+    const gb_bed_row *moment =
+        (const gb_bed_row *)bed->moment + gb_bed_crossing_rows(bed);
     const bool friction = bed->law.mu > 0.0;
     for (int64_t e = blocks->entry[b]; e < blocks->entry[b + 1]; e++) {
         const int32_t to = blocks->row_particle[e], from = blocks->row[e];
-        for (int k = 0; k < 4; k++) {
-            bed->force[to][k] += force[from][k];
-        }
-        for (int k = 0; k < 4 && friction; k++) {
-            bed->torque[to][k] += torque[from][k];
+        add_row(bed->force[to], force[from]);
+        if (friction) {
+            add_row(bed->moment[to], moment[from]);
         }
     }
 }

@@ -91,9 +91,9 @@ void gb_bed_walls_sweep(struct gb_bed *bed, int64_t block, struct gb_bed_batch *
     const int64_t end = bed->walls.start[gb_bed_blocks_end(bed->count, block)];
     struct gb_bed_rows rows = {.position = (const gb_bed_row *)bed->position,
                                .velocity = (const gb_bed_row *)bed->velocity,
-                               .spin = (const gb_bed_row *)bed->spin,
+                               .roll = (const gb_bed_row *)bed->roll,
                                .force = bed->force,
-                               .torque = bed->torque,
+                               .moment = bed->moment,
                                .from = (int32_t)bed->count,
                                .friction = bed->law.mu_wall > 0.0};
     b->mu = bed->law.mu_wall;

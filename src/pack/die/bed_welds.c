@@ -135,10 +135,9 @@ static struct weld weld_of(const struct gb_bed *bed, int64_t k)
 static void slip_of(const struct gb_bed *bed, int32_t i, int32_t j, const double unit[3],
                     double lever, double slip[3])
 {
-    const double ri = lever * bed->position[i][3], rj = lever * bed->position[j][3];
     double roll[3], across[3];
     for (int k = 0; k < 3; k++) {
-        roll[k] = ri * bed->spin[i][k] + rj * bed->spin[j][k];
+        roll[k] = lever * (bed->roll[i][k] + bed->roll[j][k]);
     }
     gb_vec_cross(roll, unit, across);
     for (int k = 0; k < 3; k++) {
@@ -176,8 +175,8 @@ static void apply(struct gb_bed *bed, int32_t i, int32_t j, const double unit[3]
     for (int c = 0; c < 3; c++) {
         bed->force[i][c] += force[c];
         bed->force[j][c] -= force[c];
-        bed->torque[i][c] += lever * bed->position[i][3] * moment[c];
-        bed->torque[j][c] += lever * bed->position[j][3] * moment[c];
+        bed->moment[i][c] += lever * moment[c];
+        bed->moment[j][c] += lever * moment[c];
     }
     bed->force[i][3] += stiffness;
     bed->force[j][3] += stiffness;

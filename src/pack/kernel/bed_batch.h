@@ -21,8 +21,8 @@ struct gb_bed_batch {
     double slip[3][GB_BED_BATCH]; /* in: v_i - v_j of the centres */
     double held[GB_BED_BATCH];    /* in: stiffness over mass, summed over both partners */
     double holds[GB_BED_BATCH];   /* out: stiffness that it adds to either */
-    double roll[3][GB_BED_BATCH]; /* in, friction: R_i w_i + R_j w_j */
-    /* out: force on i; torque on i is R_i moment, on j R_j moment */
+    double roll[3][GB_BED_BATCH]; /* in, friction: sum of both rolls */
+    /* out: force on i; moment on either */
     double force[3][GB_BED_BATCH], moment[3][GB_BED_BATCH];
     /* from loop to loop: h/h_x, the binary logarithm of the elastic part over h_x, and that
      * part; normal force, its stiffness and the rate of the overlap; of the shear springs
@@ -50,12 +50,12 @@ gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
 typedef double gb_bed_row[4];
 
 /* The partners of a batch: rows first[k] and other[k] + from of contact k.  Without friction
- * neither spin nor torque is used.  Gather: branch vectors, relative velocities and sums
- * of radii into the batch; scatter: forces and torques back.  A wall is a row as well, at the
+ * neither roll nor moment is used.  Gather: branch vectors, relative velocities and sums
+ * of radii into the batch; scatter: forces and moments back.  A wall is a row as well, at the
  * origin without radius, so that `branch` and `reach` are those of the particle. */
 struct gb_bed_rows {
-    const gb_bed_row *position, *velocity, *spin;
-    gb_bed_row *force, *torque;
+    const gb_bed_row *position, *velocity, *roll;
+    gb_bed_row *force, *moment;
     const int32_t *first, *other;
     const int32_t *target; /* row that the force on the second is added to */
     int32_t from;          /* 0 for pairs */

@@ -55,34 +55,35 @@ double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, int64_t count, do
     return deviation2;
 }
 
-GB_SIMD_LOOP void kick_loop(gb_bed_row *restrict v, gb_bed_row *restrict w, int64_t count,
-                            const struct gb_bed_motion_kick *by, double *fastest2)
+GB_SIMD_LOOP void kick_loop(gb_bed_row *restrict v, gb_bed_row *restrict roll,
+                            int64_t count, const struct gb_bed_motion_kick *by,
+                            double *fastest2)
 {
     const double step = by->step, slow = fmax(1.0 - step * by->drag, 0.0);
     const row fall = {0.0, 0.0, -by->gravity * step, 0.0}, kept = {slow, slow, slow, 0.0};
     const row pushed = {step, step, step, 1.0};
-    const gb_bed_row *restrict force = by->force, *restrict torque = by->torque;
-    const double *restrict mass = by->inverse_mass, *restrict inertia =
-                                                        by->inverse_inertia;
+    const gb_bed_row *restrict force = by->force, *restrict moment = by->moment;
+    const double *restrict mass = by->inverse_mass;
+    const double rolled = step / by->inertia;
     row most = {0.0, 0.0, 0.0, 0.0};
     for (int64_t i = 0; i < count; i++) {
         const row speed =
             kept * READ(v, i) + ((pushed * mass[i]) * READ(force, i) + fall);
         ROW(v, i) = speed;
-        ROW(w, i) = slow * READ(w, i) + (step * inertia[i]) * READ(torque, i);
+        ROW(roll, i) = slow * READ(roll, i) + (rolled * mass[i]) * READ(moment, i);
         LARGER_MAGNITUDE(speed, most);
     }
     *fastest2 = square((const double *)&most);
 }
 GB_SIMD_WIDTHS(kick,
-               (gb_bed_row * v, gb_bed_row *w, int64_t count,
+               (gb_bed_row * v, gb_bed_row *roll, int64_t count,
                 const struct gb_bed_motion_kick *by, double *fastest2),
-               (v, w, count, by, fastest2))
+               (v, roll, count, by, fastest2))
 
-double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *w, int64_t count,
+double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *roll, int64_t count,
                           const struct gb_bed_motion_kick *by)
 {
     double fastest2;
-    kick(v, w, count, by, &fastest2);
+    kick(v, roll, count, by, &fastest2);
     return sqrt(fastest2);
 }

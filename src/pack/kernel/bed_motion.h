@@ -19,18 +19,19 @@ struct gb_bed_motion_course {
 double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, int64_t count, double step,
                            const struct gb_bed_motion_course *course);
 
-/* What changes velocities and spins. */
+/* What changes velocities and rolls (pack/die/bed.h). */
 struct gb_bed_motion_kick {
-    const gb_bed_row *force, *torque;
-    const double *inverse_mass, *inverse_inertia;
+    const gb_bed_row *force, *moment;
+    const double *inverse_mass;
+    double inertia; /* over m R^2 */
     double step;
     double gravity; /* along -z */
     double drag;    /* speed lost per time */
 };
 
-/* v += step f/m and w += step m/I for velocities v and spins w.  Returns a bound of the
+/* v += step force/m and roll += step moment/(m inertia).  Returns a bound of the
  * speed of the fastest particle, from the largest components. */
-double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *w, int64_t count,
+double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *roll, int64_t count,
                           const struct gb_bed_motion_kick *by);
 
 #endif

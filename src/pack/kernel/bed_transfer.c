@@ -14,7 +14,7 @@ static void gather_rest(const struct gb_bed_rows *rows, struct gb_bed_batch *b, 
         b->reach[k] = xi[3] + xj[3];
         b->held[k] = rows->velocity[i][3] + rows->velocity[j][3];
         for (int c = 0; c < 3 && rows->friction; c++) {
-            b->roll[c][k] = xi[3] * rows->spin[i][c] + xj[3] * rows->spin[j][c];
+            b->roll[c][k] = rows->roll[i][c] + rows->roll[j][c];
         }
     }
 }
@@ -23,9 +23,7 @@ static void scatter_rest(const struct gb_bed_rows *rows, const struct gb_bed_bat
                          int done)
 {
     for (int k = done; k < b->n; k++) {
-        const int32_t i = rows->first[k], j = rows->other[k] + rows->from;
-        const int32_t to = rows->target[k];
-        const double ri = rows->position[i][3], rj = rows->position[j][3];
+        const int32_t i = rows->first[k], to = rows->target[k];
         for (int c = 0; c < 3; c++) {
             rows->force[i][c] += b->force[c][k];
             rows->force[to][c] -= b->force[c][k];
@@ -33,8 +31,8 @@ static void scatter_rest(const struct gb_bed_rows *rows, const struct gb_bed_bat
         rows->force[i][3] += b->holds[k];
         rows->force[to][3] += b->holds[k];
         for (int c = 0; c < 3 && rows->friction; c++) {
-            rows->torque[i][c] += ri * b->moment[c][k];
-            rows->torque[to][c] += rj * b->moment[c][k];
+            rows->moment[i][c] += b->moment[c][k];
+            rows->moment[to][c] += b->moment[c][k];
         }
     }
 }
@@ -81,7 +79,7 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
     const gb_bed_row *restrict position = rows->position;
-    const gb_bed_row *restrict velocity = rows->velocity, *restrict spin = rows->spin;
+    const gb_bed_row *restrict velocity = rows->velocity, *restrict rolls = rows->roll;
     const bool friction = rows->friction;
     const int32_t from = rows->from;
     const int n = b->n;
@@ -95,9 +93,7 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
             const v4 vi = ROW(velocity, i), vj = ROW(velocity, j);
             slip[p] = SHUFFLE(vi - vj, vi + vj, 0, 1, 2, 7);
             if (friction) {
-                const v4 ri = SHUFFLE(xi, xi, 3, 3, 3, 3),
-                         rj = SHUFFLE(xj, xj, 3, 3, 3, 3);
-                roll[p] = ri * ROW(spin, i) + rj * ROW(spin, j);
+                roll[p] = ROW(rolls, i) + ROW(rolls, j);
             }
         }
         TRANSPOSE(branch[0], branch[1], branch[2], branch[3]);
@@ -121,13 +117,10 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
 GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
                                       const struct gb_bed_batch *b)
 {
-    const int32_t *restrict first = rows->first, *restrict other = rows->other;
-    const int32_t *restrict target = rows->target;
-    const gb_bed_row *restrict position = rows->position;
-    gb_bed_row *force_of = rows->force, *torque_of = rows->torque;
+    const int32_t *restrict first = rows->first, *restrict target = rows->target;
+    gb_bed_row *restrict force_of = rows->force, *restrict moment_of = rows->moment;
     const v4 opposite = {-1.0, -1.0, -1.0, 1.0};
     const bool friction = rows->friction;
-    const int32_t from = rows->from;
     const int n = b->n;
     int k = 0;
     for (; k + 4 <= n; k += 4) {
@@ -149,10 +142,8 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
         }
         TRANSPOSE(moment[0], moment[1], moment[2], moment[3]);
         for (int p = 0; p < 4; p++) {
-            const int32_t i = first[k + p], j = other[k + p] + from;
-            const v4 xi = ROW(position, i), xj = ROW(position, j);
-            *(v4 *)torque_of[i] += SHUFFLE(xi, xi, 3, 3, 3, 3) * moment[p];
-            *(v4 *)torque_of[target[k + p]] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
+            *(v4 *)moment_of[first[k + p]] += moment[p];
+            *(v4 *)moment_of[target[k + p]] += moment[p];
         }
     }
     scatter_rest(rows, b, k);
