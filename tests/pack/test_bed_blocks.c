@@ -48,6 +48,28 @@ static struct gb_bed *powder(void)
     return bed;
 }
 
+/* The blocks have every particle once, and are enough for threads. */
+static void test_sizes(void)
+{
+    static const struct {
+        int64_t particles, size;
+    } want[] = {{1, 128},    {128, 128},  {1751, 128}, {3071, 128},  {3072, 256},
+                {6143, 256}, {6144, 512}, {8000, 512}, {100000, 512}};
+    for (size_t k = 0; k < G_N_ELEMENTS(want); k++) {
+        struct gb_bed_blocks blocks;
+        struct gb_error err = {0};
+        int64_t end = 0;
+        g_assert_true(gb_bed_blocks_init(&blocks, want[k].particles, &err));
+        g_assert_cmpint(blocks.size, ==, want[k].size);
+        for (int64_t b = 0; b < blocks.count; b++) {
+            g_assert_cmpint(gb_bed_blocks_begin(want[k].particles, b), ==, end);
+            end = gb_bed_blocks_end(want[k].particles, b);
+        }
+        g_assert_cmpint(end, ==, want[k].particles);
+        gb_bed_blocks_finish(&blocks);
+    }
+}
+
 /* Steps of central differences with a drag that keeps the powder together. */
 static void move(struct gb_bed *bed, int steps)
 {
@@ -230,6 +252,7 @@ static void test_numbers_copy(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/bed-blocks/sizes", test_sizes);
     g_test_add_func("/bed-blocks/threads", test_threads);
     g_test_add_func("/bed-blocks/crossings", test_crossings);
     g_test_add_func("/bed-blocks/numbers", test_numbers);

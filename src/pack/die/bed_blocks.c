@@ -4,14 +4,23 @@
 
 #include "base/alloc.h"
 
-int64_t gb_bed_blocks_begin(int64_t b)
+int64_t gb_bed_blocks_size(int64_t particles)
 {
-    return b * GB_BED_BLOCK_SIZE;
+    int64_t size = GB_BED_BLOCKS_SIZE;
+    while (size < GB_BED_BLOCKS_SIZE_MAX && particles >= 2 * size * GB_BED_BLOCKS_LEFT) {
+        size *= 2;
+    }
+    return size;
+}
+
+int64_t gb_bed_blocks_begin(int64_t particles, int64_t b)
+{
+    return b * gb_bed_blocks_size(particles);
 }
 
 int64_t gb_bed_blocks_end(int64_t particles, int64_t b)
 {
-    const int64_t end = gb_bed_blocks_begin(b + 1);
+    const int64_t end = gb_bed_blocks_begin(particles, b + 1);
     return end < particles ? end : particles;
 }
 
@@ -46,9 +55,10 @@ static bool make_room(struct gb_bed_blocks *blocks, int64_t crossings,
 bool gb_bed_blocks_init(struct gb_bed_blocks *blocks, int64_t particles,
                         struct gb_error *err)
 {
-    const int64_t count = (particles + GB_BED_BLOCK_SIZE - 1) / GB_BED_BLOCK_SIZE;
+    const int64_t size = gb_bed_blocks_size(particles);
+    const int64_t count = (particles + size - 1) / size;
     const size_t ends = (size_t)count + 1;
-    *blocks = (struct gb_bed_blocks){.count = count};
+    *blocks = (struct gb_bed_blocks){.count = count, .size = size};
     blocks->block = gb_alloc_array((size_t)count, sizeof *blocks->block, err);
     blocks->cost = gb_alloc_array(ends, sizeof *blocks->cost, err);
     blocks->crossing = gb_alloc_array(ends, sizeof *blocks->crossing, err);
@@ -85,14 +95,14 @@ void gb_bed_blocks_enter(struct gb_bed_blocks *blocks)
     const int64_t crossings = blocks->crossing[blocks->count];
     memset(entry, 0, ((size_t)blocks->count + 1) * sizeof *entry);
     for (int64_t c = 0; c < crossings; c++) {
-        entry[blocks->target[c] / GB_BED_BLOCK_SIZE + 1]++;
+        entry[blocks->target[c] / blocks->size + 1]++;
     }
     for (int64_t b = 0; b < blocks->count; b++) {
         entry[b + 1] += entry[b];
     }
     for (int64_t c = 0; c < crossings; c++) { /* entry[b] becomes the end of block b */
         const int32_t particle = blocks->target[c];
-        const int64_t e = entry[particle / GB_BED_BLOCK_SIZE]++;
+        const int64_t e = entry[particle / blocks->size]++;
         blocks->row[e] = (int32_t)c;
         blocks->row_particle[e] = particle;
     }

@@ -7,8 +7,10 @@
 #include "greenbody/status.h"
 
 /* Consecutive particles of a bed, which one thread computes with the pairs that they are
- * the first of.  Blocks do not depend on the number of threads. */
-enum { GB_BED_BLOCK_SIZE = 128 };
+ * the first of.  Blocks follow from the number of particles alone, not from that of the threads.
+ * Larger ones have fewer pairs with a particle in another block, each of which has a row of its
+ * own; smaller ones distribute better over threads: the size doubles while this many are left. */
+enum { GB_BED_BLOCKS_SIZE = 128, GB_BED_BLOCKS_SIZE_MAX = 512, GB_BED_BLOCKS_LEFT = 12 };
 
 /* Forces on the walls, and what limits the time step. */
 struct gb_bed_tally {
@@ -34,7 +36,7 @@ struct gb_bed_block {
 /* A pair of two blocks adds the force on its second particle to a row of its own, its
  * crossing; the block of that particle sums those rows, in the order of the pairs. */
 struct gb_bed_blocks {
-    int64_t count;
+    int64_t count, size; /* blocks, and particles in one */
     struct gb_bed_block *block;
     int64_t *cost;     /* of all blocks before, count + 1 */
     int64_t *crossing; /* first one of each block, count + 1 */
@@ -48,8 +50,11 @@ bool gb_bed_blocks_init(struct gb_bed_blocks *blocks, int64_t particles,
                         struct gb_error *err);
 void gb_bed_blocks_finish(struct gb_bed_blocks *blocks);
 
+/* Particles in a block, of so many in all. */
+int64_t gb_bed_blocks_size(int64_t particles);
+
 /* Particles of block b: those from begin on, before end. */
-int64_t gb_bed_blocks_begin(int64_t b);
+int64_t gb_bed_blocks_begin(int64_t particles, int64_t b);
 int64_t gb_bed_blocks_end(int64_t particles, int64_t b);
 
 /* Room for the crossings that the blocks have counted; `crossing` follows.

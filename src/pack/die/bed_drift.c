@@ -13,14 +13,14 @@ struct motion {
 
 static int64_t particles_of(const struct gb_bed *bed, int64_t b)
 {
-    return gb_bed_blocks_end(bed->count, b) - gb_bed_blocks_begin(b);
+    return gb_bed_blocks_end(bed->count, b) - gb_bed_blocks_begin(bed->count, b);
 }
 
 static void drift_block(void *data, int64_t b)
 {
     const struct motion *motion = data;
     struct gb_bed *bed = motion->bed;
-    const int64_t begin = gb_bed_blocks_begin(b);
+    const int64_t begin = gb_bed_blocks_begin(bed->count, b);
     struct gb_bed_motion_course course = motion->course;
     course.from += begin;
     course.velocity += begin;
@@ -33,7 +33,7 @@ static void kick_block(void *data, int64_t b)
 {
     const struct motion *motion = data;
     struct gb_bed *bed = motion->bed;
-    const int64_t begin = gb_bed_blocks_begin(b);
+    const int64_t begin = gb_bed_blocks_begin(bed->count, b);
     struct gb_bed_motion_kick by = motion->kick;
     gb_bed_sweep_sum_block(bed, b);
     by.force += begin;

@@ -151,7 +151,7 @@ static bool list_walls(struct gb_bed *bed, struct gb_error *err)
                 list->first[slot] = (int32_t)i;
                 list->other[slot] = wall;
                 list->target[slot] =
-                    (int32_t)gb_bed_wall_rows(bed, i / GB_BED_BLOCK_SIZE) + wall;
+                    (int32_t)gb_bed_wall_rows(bed, i / bed->blocks.size) + wall;
                 set_slot(list, slot, i, wall, bed);
             }
         }
@@ -213,7 +213,7 @@ static void find_near(void *data, int64_t b)
     const struct drawing *drawing = data;
     struct gb_bed *bed = drawing->bed;
     struct gb_bed_block *block = &bed->blocks.block[b];
-    const int64_t begin = gb_bed_blocks_begin(b);
+    const int64_t begin = gb_bed_blocks_begin(bed->count, b);
     const int64_t end = gb_bed_blocks_end(bed->count, b);
     const int64_t *candidates = bed->hgrid.start;
     int32_t *found = bed->near + candidates[begin];
@@ -266,7 +266,7 @@ static void draw_block(void *data, int64_t b)
     struct gb_bed *bed = drawing->bed;
     struct gb_bed_list *list = &bed->pairs;
     const struct gb_bed_list *last = &bed->previous_pairs;
-    const int64_t begin = gb_bed_blocks_begin(b);
+    const int64_t begin = gb_bed_blocks_begin(bed->count, b);
     const int64_t end = gb_bed_blocks_end(bed->count, b);
     const int64_t crossing_rows = gb_bed_crossing_rows(bed);
     const int32_t *found = bed->near + bed->hgrid.start[begin];

@@ -22,7 +22,7 @@ static void clear_block(const struct gb_bed *bed, int64_t b)
 {
     const struct gb_bed_blocks *blocks = &bed->blocks;
     const int64_t walls = gb_bed_wall_rows(bed, b), crossings = gb_bed_crossing_rows(bed);
-    clear_rows(bed, gb_bed_blocks_begin(b), gb_bed_blocks_end(bed->count, b));
+    clear_rows(bed, gb_bed_blocks_begin(bed->count, b), gb_bed_blocks_end(bed->count, b));
     clear_rows(bed, walls, walls + GB_DIE_WALLS);
     clear_rows(bed, crossings + blocks->crossing[b], crossings + blocks->crossing[b + 1]);
 }
@@ -37,7 +37,7 @@ static void sweep_pairs(struct gb_bed *bed, int64_t b, struct gb_bed_batch *batc
                                .friction = bed->law.mu > 0.0};
     const int64_t end = bed->pairs.start[gb_bed_blocks_end(bed->count, b)];
     batch->mu = bed->law.mu;
-    for (int64_t slot = bed->pairs.start[gb_bed_blocks_begin(b)]; slot < end;
+    for (int64_t slot = bed->pairs.start[gb_bed_blocks_begin(bed->count, b)]; slot < end;
          slot += batch->n) {
         batch->n = end - slot < GB_BED_BATCH ? (int)(end - slot) : GB_BED_BATCH;
         rows.first = bed->pairs.first + slot;

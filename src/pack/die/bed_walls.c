@@ -98,8 +98,8 @@ void gb_bed_walls_sweep(struct gb_bed *bed, int64_t block, struct gb_bed_batch *
                                .friction = bed->law.mu_wall > 0.0};
     b->mu = bed->law.mu_wall;
     tally->side[0] = tally->side[1] = 0.0;
-    for (int64_t slot = bed->walls.start[gb_bed_blocks_begin(block)]; slot < end;
-         slot += b->n) {
+    for (int64_t slot = bed->walls.start[gb_bed_blocks_begin(bed->count, block)];
+         slot < end; slot += b->n) {
         b->n = end - slot < GB_BED_BATCH ? (int)(end - slot) : GB_BED_BATCH;
         rows.first = bed->walls.first + slot;
         rows.other = bed->walls.other + slot;
