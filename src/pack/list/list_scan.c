@@ -4,10 +4,9 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
+#include "pack/kernel/lanes.h"
+#include "pack/kernel/simd.h"
 #include "pack/structure/hgrid.h"
-
-/* A call for every row of bins would take a third of the time of a scan. */
-#define INLINE static inline __attribute__((always_inline))
 
 /* Neighbours up to which a branch-free sort is used; most particles have no more. */
 enum { FEW = 32 };
@@ -21,7 +20,7 @@ static int bin_of(const struct gb_list_scan *scan, int64_t i)
 
 /* Counting sort by bins. */
 static void sort_into_bins(const struct gb_list_scan *scan,
-                           struct gb_neighbour_list *list, double (*sorted)[3],
+                           struct gb_neighbour_list *list, double *const sorted[3],
                            int64_t bins)
 {
     int32_t *start = list->bin_start, *particle = list->bin_particle;
@@ -35,7 +34,9 @@ static void sort_into_bins(const struct gb_list_scan *scan,
     for (int64_t i = list->count - 1; i >= 0; i--) {
         const int32_t at = --start[bin_of(scan, i)];
         particle[at] = (int32_t)i;
-        memcpy(sorted[at], scan->position + 3 * i, sizeof *sorted);
+        for (int k = 0; k < 3; k++) {
+            sorted[k][at] = scan->position[3 * i + k];
+        }
     }
 }
 
@@ -54,9 +55,12 @@ bool gb_list_scan_sort(struct gb_list_scan *scan, struct gb_neighbour_list *list
         list->bin_capacity = bins + 1;
     }
     /* the positions of the last build are not needed any more */
-    double(*sorted)[3] = (double(*)[3])list->built_position;
+    double *const plane = list->built_position;
+    double *const sorted[3] = {plane, plane + list->count, plane + 2 * list->count};
     sort_into_bins(scan, list, sorted, bins);
-    scan->sorted = (const double(*)[3])sorted;
+    for (int k = 0; k < 3; k++) {
+        scan->sorted[k] = sorted[k];
+    }
     scan->start = list->bin_start;
     scan->particle = list->bin_particle;
     return true;
@@ -112,7 +116,7 @@ static struct gb_list_scan_bounds bounds_of(const struct gb_list_scan *scan, int
 
 /* Ascending by `other`.  The rank of each is the number of smaller ones, counted without
  * a branch: the order is random, and a mispredicted branch costs more. */
-static void sort_few(struct gb_list_scan_found *list, int n)
+GB_SIMD_LOOP void sort_few(struct gb_list_scan_found *list, int n)
 {
     struct gb_list_scan_found found[FEW];
     int32_t other[FEW];
@@ -141,35 +145,69 @@ static void sort_many(struct gb_list_scan_found *list, int n)
     }
 }
 
-/* Particles of the bins first .. last with a larger index than i and within the bounds.
- * image: the one that all of them have, where the grid is plain. */
-INLINE int scan_bins(const struct gb_list_scan *scan, int64_t i, int first, int last,
+/* Particles of the bins first .. last with a larger index than i and within the bounds, in a grid
+ * that is not plain or of unequal diameters. */
+static int scan_bins(const struct gb_list_scan *scan, int64_t i, int first, int last,
                      int image, struct gb_list_scan_found *list, int n)
 {
     const double *x = scan->position + 3 * i, *shift = scan->shift[image];
-    /* copies, which the stores to the list cannot alias */
-    const struct gb_list_scan_bounds bounds = scan->bounds;
-    const double *diameter = scan->diameter;
-    const double(*sorted)[3] = scan->sorted;
     const int32_t *particle = scan->particle, end = scan->start[last + 1];
-    const bool plain = scan->grid.plain;
     for (int32_t k = scan->start[first]; k < end && n < GB_LIST_SCAN_MAX; k++) {
-        const double *y = sorted[k];
+        const double y[3] = {scan->sorted[0][k], scan->sorted[1][k], scan->sorted[2][k]};
         const double r[3] = {x[0] - y[0] + shift[0], x[1] - y[1] + shift[1],
                              x[2] - y[2] + shift[2]};
         double squared = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         uint8_t seen = (uint8_t)image;
-        if (!plain) {
+        if (!scan->grid.plain) {
             seen = scan->grid.tilted ? nearest_image_tilted(scan->cell, x, y, &squared)
                                      : nearest_image(scan->cell, x, y, &squared);
         }
         const int32_t other = particle[k];
         const struct gb_list_scan_bounds own =
-            diameter ? bounds_of(scan, i, other, bounds) : bounds;
+            scan->diameter ? bounds_of(scan, i, other, scan->bounds) : scan->bounds;
         list[n] = (struct gb_list_scan_found){other, seen, squared < own.near};
         n += (squared < own.far) & (other > i);
     }
     return n;
+}
+
+/* The same four at a time in a plain grid, where all of them have one image, and of one diameter:
+ * bins that are beside each other have about as many. */
+GB_SIMD_LOOP int scan_plain(const struct gb_list_scan *scan, int64_t i, int first,
+                            int last, int image, struct gb_list_scan_found *list, int n)
+{
+    const double *x = scan->position + 3 * i, *shift = scan->shift[image];
+    const double *const *sorted = scan->sorted;
+    const int32_t *particle = scan->particle, end = scan->start[last + 1];
+    const gb_lanes far = GB_LANES_ALL(scan->bounds.far);
+    const gb_lanes near = GB_LANES_ALL(scan->bounds.near);
+    const gb_lanes_index lane = {0, 1, 2, 3};
+    for (int32_t k = scan->start[first]; k < end && n < GB_LIST_SCAN_MAX; k += 4) {
+        const gb_lanes rx =
+            GB_LANES_ALL(x[0]) - GB_LANES_AT(sorted[0], k) + GB_LANES_ALL(shift[0]);
+        const gb_lanes ry =
+            GB_LANES_ALL(x[1]) - GB_LANES_AT(sorted[1], k) + GB_LANES_ALL(shift[1]);
+        const gb_lanes rz =
+            GB_LANES_ALL(x[2]) - GB_LANES_AT(sorted[2], k) + GB_LANES_ALL(shift[2]);
+        const gb_lanes squared = rx * rx + ry * ry + rz * rz;
+        const gb_lanes_index behind =
+            (GB_LANES_INDEX_AT(particle, k) > GB_LANES_INDEX_ALL((int32_t)i)) &
+            (lane < GB_LANES_INDEX_ALL(end - k));
+        const gb_lanes_mask found =
+            (squared < far) & __builtin_convertvector(behind, gb_lanes_mask);
+        const gb_lanes_mask touching = squared < near;
+        for (int l = 0; l < 4; l++) {
+            list[n] = (struct gb_list_scan_found){particle[k + l], (uint8_t)image,
+                                                  touching[l] != 0};
+            n -= (int)found[l];
+        }
+    }
+    return n;
+}
+
+static int wrapped(int bin, int n)
+{
+    return bin < 0 ? bin + n : bin >= n ? bin - n : bin;
 }
 
 /* Image of a neighbouring bin along one axis, as a digit of the index of the image. */
@@ -178,18 +216,44 @@ static int image_digit(int bin, int n)
     return bin < 0 ? 2 : bin >= n ? 0 : 1;
 }
 
+/* Row and image of the bins along x at a bin along the others. */
+struct row {
+    int first, image;
+};
+
+static struct row row_of(const struct gb_neighbour_grid *grid, int y, int z)
+{
+    const int cy = wrapped(y, grid->n[1]), cz = wrapped(z, grid->n[2]);
+    return (struct row){(cz * grid->n[1] + cy) * grid->n[0],
+                        9 * image_digit(z, grid->n[2]) + 3 * image_digit(y, grid->n[1])};
+}
+
 /* One row of bins along x. */
-INLINE int scan_row(const struct gb_list_scan *scan, int64_t i, int bin, int row,
-                    int image, struct gb_list_scan_found *list, int n)
+static int scan_row(const struct gb_list_scan *scan, int64_t i, int bin, struct row row,
+                    struct gb_list_scan_found *list, int n)
 {
     const struct gb_neighbour_grid *grid = &scan->grid;
     const int bins = grid->n[0];
-    if (grid->plain && bins > 2 && bin > 0 && bin < bins - 1) {
-        return scan_bins(scan, i, row + bin - 1, row + bin + 1, image + 1, list, n);
+    for (int u = grid->span_low[0]; u <= grid->span_high[0]; u++) {
+        const int c = row.first + wrapped(bin + u, bins);
+        n = scan_bins(scan, i, c, c, row.image + image_digit(bin + u, bins), list, n);
+    }
+    return n;
+}
+
+/* The same of a plain grid: bins that are beside each other are one range. */
+GB_SIMD_LOOP int scan_row_plain(const struct gb_list_scan *scan, int64_t i, int bin,
+                                struct row row, struct gb_list_scan_found *list, int n)
+{
+    const struct gb_neighbour_grid *grid = &scan->grid;
+    const int bins = grid->n[0];
+    if (bins > 2 && bin > 0 && bin < bins - 1) {
+        return scan_plain(scan, i, row.first + bin - 1, row.first + bin + 1,
+                          row.image + 1, list, n);
     }
     for (int u = grid->span_low[0]; u <= grid->span_high[0]; u++) {
-        const int c = row + (bin + u + bins) % bins;
-        n = scan_bins(scan, i, c, c, image + image_digit(bin + u, bins), list, n);
+        const int c = row.first + wrapped(bin + u, bins);
+        n = scan_plain(scan, i, c, c, row.image + image_digit(bin + u, bins), list, n);
     }
     return n;
 }
@@ -215,32 +279,45 @@ static int scan_candidates(const struct gb_list_scan *scan, int64_t i,
 int64_t gb_list_scan_most(const struct gb_list_scan *scan, int64_t i)
 {
     const struct gb_hgrid *pairs = scan->candidates;
-    return pairs ? pairs->start[i + 1] - pairs->start[i] : GB_LIST_SCAN_MAX;
+    return pairs ? pairs->start[i + 1] - pairs->start[i]
+                 : GB_LIST_SCAN_MAX + GB_LANES_BEYOND;
 }
 
-/* Particles in the bins around particle i. */
-static int scan_around(const struct gb_list_scan *scan, int64_t i,
-                       struct gb_list_scan_found *found)
+/* Particles in the bins around particle i, sorted. */
+GB_SIMD_LOOP void scan_around_loop(const struct gb_list_scan *scan, int64_t i,
+                                   struct gb_list_scan_found *found, int *count)
 {
     const struct gb_neighbour_grid *grid = &scan->grid;
+    const bool plain = grid->plain && !scan->diameter;
     int bin[3], n = 0;
     gb_neighbour_grid_bin(grid, scan->position + 3 * i, bin);
     for (int w = grid->span_low[2]; w <= grid->span_high[2]; w++) {
-        const int cw = (bin[2] + w + grid->n[2]) % grid->n[2];
         for (int v = grid->span_low[1]; v <= grid->span_high[1]; v++) {
-            const int cv = (bin[1] + v + grid->n[1]) % grid->n[1];
-            const int image = 9 * image_digit(bin[2] + w, grid->n[2]) +
-                              3 * image_digit(bin[1] + v, grid->n[1]);
-            n = scan_row(scan, i, bin[0], (cw * grid->n[1] + cv) * grid->n[0], image,
-                         found, n);
+            const struct row row = row_of(grid, bin[1] + v, bin[2] + w);
+            n = plain ? scan_row_plain(scan, i, bin[0], row, found, n)
+                      : scan_row(scan, i, bin[0], row, found, n);
         }
     }
-    (n <= FEW ? sort_few : sort_many)(found, n);
-    return n;
+    n = n < GB_LIST_SCAN_MAX ? n : GB_LIST_SCAN_MAX;
+    if (n <= FEW) {
+        sort_few(found, n);
+    } else {
+        sort_many(found, n);
+    }
+    *count = n;
 }
+GB_SIMD_WIDTHS(scan_around,
+               (const struct gb_list_scan *scan, int64_t i,
+                struct gb_list_scan_found *found, int *count),
+               (scan, i, found, count))
 
 int gb_list_scan_particle(const struct gb_list_scan *scan, int64_t i,
                           struct gb_list_scan_found *found)
 {
-    return (scan->candidates ? scan_candidates : scan_around)(scan, i, found);
+    int count;
+    if (scan->candidates) {
+        return scan_candidates(scan, i, found);
+    }
+    scan_around(scan, i, found, &count);
+    return count;
 }

@@ -29,8 +29,8 @@ struct gb_list_scan {
     struct gb_list_scan_bounds bounds;
     const struct gb_cell *cell;
     const double *position; /* count x 3, inside the cell */
-    const double (
-        *sorted)[3]; /* positions bin by bin: bin c is start[c] .. start[c + 1] */
+    const double
+        *sorted[3]; /* coordinates bin by bin: bin c is start[c] .. start[c + 1] */
     const double (*shift)[3];
     const int32_t *start, *particle;
     const double *diameter;            /* NULL: all are 1 */
@@ -42,7 +42,7 @@ struct gb_list_scan {
 bool gb_list_scan_sort(struct gb_list_scan *scan, struct gb_neighbour_list *list,
                        struct gb_error *err);
 
-/* Most neighbours j > i that particle i may get. */
+/* Room that the neighbours j > i of particle i need. */
 int64_t gb_list_scan_most(const struct gb_list_scan *scan, int64_t i);
 
 /* Neighbours j > i of particle i, sorted, at most so many; returns their number. */

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
+#include "pack/kernel/lanes.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 #include "pack/list/list_levels.h"
@@ -62,9 +63,10 @@ bool gb_neighbour_list_init(struct gb_neighbour_list *list, int64_t count,
                             enum gb_neighbour_list_layout layout, struct gb_error *err)
 {
     *list = (struct gb_neighbour_list){.count = count, .largest = 1.0, .layout = layout};
-    list->bin_particle = gb_alloc_array((size_t)count, sizeof *list->bin_particle, err);
-    list->built_position =
-        gb_alloc_array(3 * (size_t)count, sizeof *list->built_position, err);
+    list->bin_particle =
+        gb_alloc_array((size_t)count + GB_LANES_BEYOND, sizeof *list->bin_particle, err);
+    list->built_position = gb_alloc_array(3 * (size_t)count + GB_LANES_BEYOND,
+                                          sizeof *list->built_position, err);
     list->inserted_max = INSERTED_BASE + count / PARTICLES_PER_INSERTED;
     list->inserted =
         gb_alloc_array((size_t)list->inserted_max, sizeof *list->inserted, err);

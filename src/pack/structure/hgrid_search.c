@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/team/team.h"
+#include "pack/kernel/lanes.h"
 #include "pack/kernel/simd.h"
 #include "scene/tolerances.h"
 
@@ -12,15 +13,6 @@ static const int64_t pairs_least = 1 << 16;
 
 /* Spheres of a part, at least, and parts at most. */
 enum { PART_SPHERES = 128, PARTS_MAX = 64 };
-
-/* Four numbers; the compiler divides the vector where the processor has shorter ones. */
-typedef double lanes __attribute__((vector_size(32), aligned(8), may_alias));
-typedef int64_t masks __attribute__((vector_size(32)));
-
-#define FOUR(numbers, at)    (*(const lanes *)((numbers) + (at)))
-#define SELECTED(mask, a, b) ((lanes)(((masks)(a) & (mask)) | ((masks)(b) & ~(mask))))
-#define ALL_FOUR(x)          ((lanes){(x), (x), (x), (x)})
-#define MAGNITUDE(x)         ((lanes)((masks)(x) & ~(masks)ALL_FOUR(-0.0)))
 
 void gb_hgrid_search_finish(struct gb_hgrid *hgrid)
 {
@@ -106,21 +98,21 @@ GB_SIMD_LOOP void scan(const struct gb_hgrid_search *search, struct gb_hgrid_par
     const int32_t *restrict name = hgrid->name;
     int32_t *restrict found = part->found;
     int64_t count = part->count;
-    const masks lane = {0, 1, 2, 3};
+    const gb_lanes_mask lane = {0, 1, 2, 3};
     for (int64_t q = from; q < to; q += 4) {
-        lanes square = ALL_FOUR(0.0);
+        gb_lanes square = GB_LANES_ALL(0.0);
         for (int k = 0; k < 3; k++) {
-            const lanes r =
-                MAGNITUDE(ALL_FOUR(hgrid->sorted[k][p]) - FOUR(hgrid->sorted[k], q));
-            const lanes other = ALL_FOUR(search->edge[k]) - r;
-            const lanes nearest = SELECTED(r < other, r, other);
+            const gb_lanes r = GB_LANES_MAGNITUDE(GB_LANES_ALL(hgrid->sorted[k][p]) -
+                                                  GB_LANES_AT(hgrid->sorted[k], q));
+            const gb_lanes other = GB_LANES_ALL(search->edge[k]) - r;
+            const gb_lanes nearest = GB_LANES_SELECTED(r < other, r, other);
             square += nearest * nearest;
         }
-        const lanes reach = ALL_FOUR(hgrid->sorted[GB_HGRID_REACH][p]) +
-                            FOUR(hgrid->sorted[GB_HGRID_REACH], q);
+        const gb_lanes reach = GB_LANES_ALL(hgrid->sorted[GB_HGRID_REACH][p]) +
+                               GB_LANES_AT(hgrid->sorted[GB_HGRID_REACH], q);
         const int64_t left = to - q;
-        const masks near =
-            (square < reach * reach) & (lane < (masks){left, left, left, left});
+        const gb_lanes_mask near =
+            (square < reach * reach) & (lane < (gb_lanes_mask){left, left, left, left});
         for (int l = 0; l < 4; l++) {
             found[count] = name[q + l];
             count -= near[l];
