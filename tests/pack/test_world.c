@@ -201,6 +201,38 @@ static void test_small_cell(void)
     gb_world_destroy(world);
 }
 
+/* One particle with so many others behind it in one bin or several: 255 are a list, one more is a
+ * collapsed packing, and names the particle. */
+static void test_collapsed(void)
+{
+    for (int around = 254; around <= 259; around++) {
+        char *count = g_strdup_printf("particles.count=%d", around + 1);
+        const struct gb_params params = scene_params(count, NULL);
+        const struct gb_model model = scene_model(&params);
+        double *position = g_new(double, 3 * (gsize)model.count);
+        for (int apart = 0; apart < 2; apart++) {
+            struct gb_world *world = NULL;
+            struct gb_error err = {0};
+            for (int i = 0; i <= around; i++) {
+                for (int c = 0; c < 3; c++) {
+                    const bool beside = apart && i % 2 != 0 && c == 0;
+                    position[3 * i + c] =
+                        0.5 * model.edges[c] + 1e-4 * i + (beside ? 0.9 : 0.0);
+                }
+            }
+            g_assert_true(gb_world_create(&world, &model, position, &err));
+            const bool evaluated = gb_world_evaluate(world, &err);
+            const bool collapsed =
+                strstr(err.text, "particle 0 has 256 or more neighbours") != NULL;
+            g_assert_true(collapsed == (around >= 256));
+            g_assert_true(!collapsed || (!evaluated && err.code == GB_ERR_GUARD));
+            gb_world_destroy(world);
+        }
+        g_free(position);
+        g_free(count);
+    }
+}
+
 /* The k-th allocation fails, for every k until all pass. */
 static void test_memory(const void *data)
 {
@@ -291,6 +323,7 @@ int main(int argc, char **argv)
     g_test_add_data_func("/world/copy-single", &precisions[1], test_copy);
     g_test_add_func("/world/filled", test_filled);
     g_test_add_func("/world/not-finite", test_not_finite);
+    g_test_add_func("/world/collapsed", test_collapsed);
     g_test_add_func("/world/small-cell", test_small_cell);
     g_test_add_data_func("/world/memory", &precisions[0], test_memory);
     g_test_add_data_func("/world/memory-single", &precisions[1], test_memory);
