@@ -252,15 +252,33 @@ static void check_fidelity(const struct bed_result *bed)
     }
 }
 
+/* Standard error of the mean difference of two models, which press the same beds. */
+static double error_of_difference(const struct bed_result *bed, int a, int b, int mark)
+{
+    const double mean = mean_of(bed, COMPARED, a, mark) - mean_of(bed, COMPARED, b, mark);
+    double square = 0.0;
+    for (int k = 0; k < COMPARED; k++) {
+        const double apart =
+            bed[k].model[a].whole[mark] - bed[k].model[b].whole[mark] - mean;
+        square += apart * apart;
+    }
+    return sqrt(square / (COMPARED * (COMPARED - 1.0)));
+}
+
+/* Contacts that yield are softer: at 50 MPa a perfectly plastic powder is denser than Hertz' by what
+ * may part them, 0.003, and six beds know that by 0.0005 (0.0021 and 0.0034 in two sets of them).  No
+ * difference is more than that by two standard errors. */
 static void check_means(const struct bed_result *bed)
 {
     for (int k = 0; k < MARKS; k++) {
         for (int m = STORAKERS; m < STORAKERS + 3; m++) {
             const double law = mean_of(bed, COMPARED, m, k);
             const double hertz = mean_of(bed, COMPARED, FAST, k);
-            g_test_message("%s less Hertz at %g MPa: %+.4f", models[m].preset,
-                           marks_mpa[k], law - hertz);
-            g_assert_cmpfloat_with_epsilon(law, hertz, 0.003);
+            const double error = error_of_difference(bed, m, FAST, k);
+            g_test_message("%s less Hertz at %g MPa: %+.4f +- %.4f", models[m].preset,
+                           marks_mpa[k], law - hertz, error);
+            g_assert_cmpfloat(error, <, 0.001);
+            g_assert_cmpfloat_with_epsilon(law, hertz, 0.003 + 2.0 * error);
         }
     }
     const int rows[2][4] = {{FAST, HERTZ_MU, HERTZ_MU + 1, HERTZ_MU + 2},
