@@ -296,7 +296,7 @@ void gb_contact_history_read(const struct gb_contact_history *history,
                              struct gb_engine *engine)
 {
     struct reading reading = {history, engine};
-    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, read_range,
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN, read_range,
                        &reading);
 }
 

@@ -113,5 +113,5 @@ static void wrap_range(void *data, int64_t begin, int64_t end)
 
 void gb_particles_wrap(struct gb_particles *particles, struct gb_team *team)
 {
-    gb_team_run_ranges(team, particles->count, GB_BLOCKS_SIZE, wrap_range, particles);
+    gb_team_run_ranges(team, particles->count, GB_BLOCKS_GRAIN, wrap_range, particles);
 }

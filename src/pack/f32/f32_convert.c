@@ -59,7 +59,7 @@ void gb_f32_convert_synchronise(struct gb_engine *engine)
     if (!gb_engine_state_position_stale(&engine->state)) {
         return;
     }
-    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE,
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN,
                        follow_range, engine);
     gb_engine_state_synchronise(&engine->state);
 }
@@ -81,7 +81,7 @@ void gb_f32_convert_forces_to_f64(struct gb_engine *engine)
     if (engine->state.forces == GB_ENGINE_FORCES_F64) {
         return;
     }
-    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, widen_range,
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN, widen_range,
                        engine);
     gb_engine_state_convert_forces(&engine->state);
 }

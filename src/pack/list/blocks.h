@@ -11,6 +11,9 @@
  * then 64 in all before their size doubles. */
 enum { GB_BLOCKS_SIZE = 512, GB_BLOCKS_SIZE_MAX = 8192, GB_BLOCKS_SHARED = 64 };
 
+/* Particles that are worth a thread of their own, in work of which every particle is by itself. */
+enum { GB_BLOCKS_GRAIN = 64 };
+
 /* Particles in a block, of `count` in all. */
 static inline int64_t gb_blocks_size(int64_t count)
 {

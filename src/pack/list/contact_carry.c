@@ -225,7 +225,7 @@ static void move_item(void *data, int64_t p)
 void gb_contact_carry_move(struct gb_contact_carry *carry, struct gb_engine *engine)
 {
     struct moving moving = {carry, engine};
-    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, find_slots,
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN, find_slots,
                        &moving);
     gb_team_run(engine->team, engine->contacts.planes, move_item, &moving);
 }

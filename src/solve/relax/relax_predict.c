@@ -13,6 +13,7 @@
 #include "base/portable.h"
 #include "base/record.h"
 #include "base/team/team.h"
+#include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 #include "scene/tolerances.h"
 #include "solve/relax/relax_fire.h"
@@ -64,49 +65,76 @@ static struct request request_since(struct predict *state, const struct gb_cell 
         ratio > 0.0 && ratio <= GB_PREDICT_STRAIN_RATIO_MAX ? ratio : 0.0, sqrt(size2)};
 }
 
-/* Scales a nonaffine displacement or a rotation by the ratio of the strains, at most to
+/* Vectors of some particles, in columns. */
+enum { SOME = 64 };
+typedef double columns[3][SOME];
+
+/* Scales nonaffine displacements or rotations by the ratio of the strains, each at most to
  * GB_PREDICT_RATIO_MAX times the strain. */
-static void predict_vector(double displacement[3], struct request request)
+GB_SIMD_LOOP void predict_vectors(columns motion, int n, struct request request)
 {
-    const double length = request.ratio * gb_vec_length(displacement);
-    const double most = GB_PREDICT_RATIO_MAX * request.size;
-    const double factor = length > most ? most / length * request.ratio : request.ratio;
-    for (int c = 0; c < 3; c++) {
-        displacement[c] *= factor;
+    const double most = GB_PREDICT_RATIO_MAX * request.size, ratio = request.ratio;
+    double *restrict x = motion[0], *restrict y = motion[1], *restrict z = motion[2];
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
+        const double length = ratio * sqrt(x[k] * x[k] + y[k] * y[k] + z[k] * z[k]);
+        const double factor = length > most ? most / length * ratio : ratio;
+        x[k] *= factor;
+        y[k] *= factor;
+        z[k] *= factor;
     }
 }
 
-/* Rotation of particle i in the last relaxation; then the initial value for the next. */
-static void load_rotation(const struct gb_relax *relax, int64_t i, double rotation[3])
+/* Rotations of the particles from begin on in the last relaxation; then the initial values for the
+ * next. */
+GB_SIMD_LOOP void load_rotations(const struct gb_relax *relax, int64_t begin, int n,
+                                 columns rotation)
 {
-    for (int c = 0; c < 3; c++) {
-        rotation[c] = relax->rotation_sum ? (double)relax->rotation_sum[3 * i + c]
-                                          : relax->vector[ROTATION][3 * i + c];
-    }
-}
-
-static void save_rotation(struct gb_relax *relax, int64_t i, const double rotation[3])
-{
-    for (int c = 0; c < 3; c++) {
-        if (relax->rotation_sum) {
-            relax->rotation_sum[3 * i + c] = (float)rotation[c];
-        } else {
-            relax->vector[ROTATION][3 * i + c] = rotation[c];
+    for (int k = 0; k < n; k++) {
+        for (int c = 0; c < 3; c++) {
+            const int64_t at = 3 * (begin + k) + c;
+            rotation[c][k] = relax->rotation_sum ? (double)relax->rotation_sum[at]
+                                                 : relax->vector[ROTATION][at];
         }
     }
 }
 
-/* Motion of a particle beside that of the cell since the last start; the position is kept
- * relative to the edges: the difference has neither the affine motion nor, less whole
- * edges, the wrapping into the cell. */
-static void displacement_of(const double edge[3], const double position[3],
-                            double scaled_position[3], double displacement[3])
+GB_SIMD_LOOP void save_rotations(struct gb_relax *relax, int64_t begin, int n,
+                                 columns rotation)
+{
+    for (int k = 0; k < n; k++) {
+        for (int c = 0; c < 3; c++) {
+            const int64_t at = 3 * (begin + k) + c;
+            if (relax->rotation_sum) {
+                relax->rotation_sum[at] = (float)rotation[c][k];
+            } else {
+                relax->vector[ROTATION][at] = rotation[c][k];
+            }
+        }
+    }
+}
+
+/* Motion of particles beside that of the cell since the last start; positions are kept relative
+ * to the edges: the difference has neither the affine motion nor, less whole edges, the wrapping
+ * into the cell. */
+GB_SIMD_LOOP void displacements_of(const double edge[3], const double *position,
+                                   double *scaled_position, int n, columns displacement)
 {
     for (int c = 0; c < 3; c++) {
-        const double now = position[c] / edge[c];
-        const double went = now - scaled_position[c];
-        displacement[c] = edge[c] * (went - gb_cell_whole(went));
-        scaled_position[c] = now;
+        double *restrict moved = displacement[c], now[SOME], before[SOME];
+        for (int k = 0; k < n; k++) {
+            now[k] = position[3 * k + c];
+            before[k] = scaled_position[3 * k + c];
+        }
+#pragma omp simd
+        for (int k = 0; k < n; k++) {
+            now[k] /= edge[c];
+            const double went = now[k] - before[k];
+            moved[k] = edge[c] * (went - gb_cell_whole(went));
+        }
+        for (int k = 0; k < n; k++) {
+            scaled_position[3 * k + c] = now[k];
+        }
     }
 }
 
@@ -127,20 +155,6 @@ static void displacement_tilted(const struct gb_cell *cell, const struct gb_cell
     gb_cell_fraction(cell, position, scaled_position);
 }
 
-/* Adds the predicted motion to that of a particle. */
-static inline void predict_particle(struct gb_relax *relax, const struct gb_bodies *b,
-                                    int64_t i, double displacement[3],
-                                    struct request request)
-{
-    double rotation[3];
-    load_rotation(relax, i, rotation);
-    predict_vector(displacement, request);
-    predict_vector(rotation, request);
-    save_rotation(relax, i, rotation);
-    gb_vec_add(b->position + 3 * i, 1.0, displacement);
-    gb_vec_add(b->rotation + 3 * i, 1.0, rotation);
-}
-
 struct prediction {
     struct gb_relax *relax;
     struct gb_bodies b;
@@ -148,25 +162,62 @@ struct prediction {
     struct request request;
 };
 
-static void predict_scaled(void *data, int64_t begin, int64_t end)
+GB_SIMD_LOOP void add_vectors(double *to, int n, columns motion)
 {
-    const struct prediction *p = data;
-    for (int64_t i = begin; i < end; i++) {
-        double displacement[3];
-        displacement_of(p->cell->edge, p->b.position + 3 * i,
-                        p->relax->vector[POSITION] + 3 * i, displacement);
-        predict_particle(p->relax, &p->b, i, displacement, p->request);
+    for (int k = 0; k < n; k++) {
+        for (int c = 0; c < 3; c++) {
+            to[3 * k + c] += motion[c][k];
+        }
     }
 }
+
+/* Adds the predicted motions to those of the particles. */
+GB_SIMD_LOOP void predict_particles(const struct prediction *p, int64_t begin, int n,
+                                    columns displacement)
+{
+    columns rotation;
+    load_rotations(p->relax, begin, n, rotation);
+    predict_vectors(displacement, n, p->request);
+    predict_vectors(rotation, n, p->request);
+    save_rotations(p->relax, begin, n, rotation);
+    add_vectors(p->b.position + 3 * begin, n, displacement);
+    add_vectors(p->b.rotation + 3 * begin, n, rotation);
+}
+
+static int some(int64_t begin, int64_t end)
+{
+    return end - begin < SOME ? (int)(end - begin) : SOME;
+}
+
+GB_SIMD_LOOP void predict_scaled_loop(void *data, int64_t begin, int64_t end)
+{
+    const struct prediction *p = data;
+    for (int64_t i = begin; i < end; i += SOME) {
+        columns displacement;
+        const int n = some(i, end);
+        displacements_of(p->cell->edge, p->b.position + 3 * i,
+                         p->relax->vector[POSITION] + 3 * i, n, displacement);
+        predict_particles(p, i, n, displacement);
+    }
+}
+GB_SIMD_WIDTHS(predict_scaled, (void *data, int64_t begin, int64_t end),
+               (data, begin, end))
 
 static void predict_tilted(void *data, int64_t begin, int64_t end)
 {
     const struct prediction *p = data;
-    for (int64_t i = begin; i < end; i++) {
-        double displacement[3];
-        displacement_tilted(p->cell, p->before, p->b.position + 3 * i,
-                            p->relax->vector[POSITION] + 3 * i, displacement);
-        predict_particle(p->relax, &p->b, i, displacement, p->request);
+    for (int64_t i = begin; i < end; i += SOME) {
+        columns displacement;
+        const int n = some(i, end);
+        for (int k = 0; k < n; k++) {
+            double moved[3];
+            displacement_tilted(p->cell, p->before, p->b.position + 3 * (i + k),
+                                p->relax->vector[POSITION] + 3 * (i + k), moved);
+            for (int c = 0; c < 3; c++) {
+                displacement[c][k] = moved[c];
+            }
+        }
+        predict_particles(p, i, n, displacement);
     }
 }
 
@@ -177,7 +228,7 @@ static void predict_motion(struct gb_relax *relax, struct gb_world *world,
     struct prediction prediction = {relax, gb_world_movable(world), gb_world_cell(world),
                                     before, request};
     const bool tilted = gb_world_model(world)->sheared && before->edge[0] > 0.0;
-    gb_team_run_ranges(gb_world_team(world), prediction.b.count, GB_BLOCKS_SIZE,
+    gb_team_run_ranges(gb_world_team(world), prediction.b.count, GB_BLOCKS_GRAIN,
                        tilted ? predict_tilted : predict_scaled, &prediction);
 }
 
