@@ -345,44 +345,67 @@ static void test_state(void)
     gb_experiment_destroy(experiment);
 }
 
-/* Stopped at a point and gone on from its record, to the same bits and records. */
-static void test_resume(void)
+static bool next_point(struct gb_experiment *experiment, int64_t moves)
 {
-    static struct gb_record record, whole, resumed;
     struct gb_error err = {0};
-    int64_t row = 0;
-    const struct gb_params params =
-        die_params("loading.until=10 MPa", "contact.normal=storakers",
-                   "material.hardening=0.1", "contact.mu=0.05", NULL);
-    struct gb_experiment *experiment = NULL, *second = NULL;
-    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    for (int points = 0; points < 3;) {
-        const enum gb_step_outcome how = gb_experiment_advance(experiment, 1000, &err);
-        if (how != GB_STEP_POINT) {
-            continue;
-        }
-        points++;
-        g_assert_true(
-            gb_checkpoint_take(experiment, points == 2 ? &record : &whole, &err));
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE) {
+        how = gb_experiment_advance(experiment, moves, &err);
     }
-    g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_STEP_DONE);
-    if (!gb_experiment_resume(&second, &params, &record, &err)) {
+    if (how == GB_STEP_STOPPED) {
         g_error("%s", err.text);
     }
-    while (gb_experiment_advance(second, 333, &err) != GB_STEP_POINT) {
+    return how == GB_STEP_POINT;
+}
+
+/* Stopped at each of its points and gone on from its record: the next point has the same bits
+ * and records. */
+static void check_resumed(const struct gb_params *params, int least)
+{
+    enum { POINTS = 16 };
+    static struct gb_record record[POINTS], resumed;
+    struct gb_experiment *whole = NULL, *second = NULL;
+    struct gb_error err = {0};
+    int points = 0;
+    g_assert_true(gb_experiment_create(&whole, params, NULL, NULL, &err));
+    while (next_point(whole, 1000)) {
+        g_assert_cmpint(points, <, POINTS);
+        g_assert_true(gb_checkpoint_take(whole, &record[points++], &err));
     }
-    g_assert_true(gb_checkpoint_take(second, &resumed, &err));
-    const char *different = gb_record_difference(&whole, &resumed, &row);
-    if (different != NULL) {
-        g_error("%s: row %d differs", different, (int)row);
+    g_assert_cmpint(points, >=, least);
+    for (int k = 0; k + 1 < points; k++) {
+        int64_t row = 0;
+        if (!gb_experiment_resume(&second, params, &record[k], &err)) {
+            g_error("%s", err.text);
+        }
+        g_assert_true(next_point(second, 333));
+        g_assert_true(gb_checkpoint_take(second, &resumed, &err));
+        const char *different = gb_record_difference(&record[k + 1], &resumed, &row);
+        if (different != NULL) {
+            g_error("from point %d: %s: row %d differs", k, different, (int)row);
+        }
+        if (k + 2 == points) {
+            g_assert_true(gb_bed_copy_hash(whole->loading->bed) ==
+                          gb_bed_copy_hash(second->loading->bed));
+        }
+        gb_experiment_destroy(second);
     }
-    g_assert_true(gb_bed_copy_hash(experiment->loading->bed) ==
-                  gb_bed_copy_hash(second->loading->bed));
-    gb_experiment_destroy(second);
-    gb_experiment_destroy(experiment);
-    gb_record_finish(&record);
-    gb_record_finish(&whole);
+    gb_experiment_destroy(whole);
     gb_record_finish(&resumed);
+    for (int k = 0; k < points; k++) {
+        gb_record_finish(&record[k]);
+    }
+}
+
+static void test_resume(void)
+{
+    const struct gb_params rough =
+        die_params("loading.until=10 MPa", "contact.normal=storakers",
+                   "material.hardening=0.1", "contact.mu=0.05", NULL);
+    const struct gb_params few = die_params("particles.count=20", "loading.until=10 MPa",
+                                            "loading.record_pressure=1 MPa", NULL);
+    check_resumed(&rough, 3);
+    check_resumed(&few, 11);
 }
 
 /* Steps of a stage, from its event; the events stand in the order of the stages. */

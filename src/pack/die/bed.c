@@ -169,7 +169,8 @@ void gb_bed_invalidate_lists(struct gb_bed *bed)
 }
 
 /* The candidates' skin that would have lasted as long as it should.  No force depends on it:
- * pairs that do not touch add exact zeros in an order that is the same for any list. */
+ * pairs that do not touch add exact zeros in an order that is the same for any list.  The next
+ * time step does (gb_bed_tally). */
 static void adapt_skin(struct gb_bed *bed)
 {
     const double lasted = (double)(bed->evaluations - bed->built_evaluation);

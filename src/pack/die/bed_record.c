@@ -34,7 +34,29 @@ static const struct gb_record_member ejection_members[] = {
     {"bed/side_drag", GB_RECORD_DOUBLE, 1, AT(tally.drag), "E d^2"},
 };
 
+/* What the next lists are made with: which pairs they have limits the time step
+ * (gb_bed_tally).  Records of earlier versions have none. */
+static const struct gb_record_member skin_members[] = {
+    {"bed/skin", GB_RECORD_DOUBLE, 1, AT(skin), "d"},
+    {"bed/near_skin", GB_RECORD_DOUBLE, 1, AT(near_skin), "d"},
+};
+
 #undef AT
+
+static bool record_skins(struct gb_bed *bed, struct gb_record *record,
+                         struct gb_error *err)
+{
+    if (record->loading && !gb_record_find(record, "bed/skin")) {
+        return true;
+    }
+    if (!gb_record_members(record, skin_members,
+                           sizeof skin_members / sizeof skin_members[0], bed, err)) {
+        return false;
+    }
+    return bed->near_skin > 0.0 && bed->skin > bed->near_skin && bed->skin < 1e9
+               ? true
+               : gb_record_checks_out_of_range("bed/skin", err);
+}
 
 static bool record_ejection(struct gb_bed *bed, struct gb_record *record,
                             struct gb_error *err)
@@ -214,5 +236,6 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
            record_rotation(bed, record, err) && accept_positions(bed, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_PARTICLE, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err) &&
-           record_ejection(bed, record, err) && gb_bed_welds_record(bed, record, err);
+           record_skins(bed, record, err) && record_ejection(bed, record, err) &&
+           gb_bed_welds_record(bed, record, err);
 }

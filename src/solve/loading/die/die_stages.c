@@ -139,8 +139,7 @@ static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_b
     return GB_STEP_STOPPED;
 }
 
-/* No state with a particle outside is kept; lists, which a resumed run builds at other
- * steps, have no part in it. */
+/* No state with a particle outside is kept; lists have no part in it. */
 static bool find_escape(const struct gb_bed *bed, char *why, size_t size)
 {
     const int64_t lost = gb_bed_escaped(bed);
@@ -245,14 +244,15 @@ static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_be
                                              : check_stage(stages, bed, text, size, err);
 }
 
-/* A recorded point is a state to go back to.  The next stage begins here and not at the
- * end of the last step: a resumed run begins with the state of the point. */
+/* A recorded point is a state to go back to.  The next stage and its lists begin here and not at
+ * the end of the last step: a resumed run begins with the state of the point. */
 static bool after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *text,
                         size_t size, struct gb_error *err)
 {
     struct gb_die_progress *now = &stages->now;
     now->at_point = false;
     now->since_point = 0;
+    gb_bed_invalidate_lists(bed);
     if (!gb_die_cycle_after_point(stages, bed, text, size, err)) {
         return false;
     }
