@@ -106,6 +106,11 @@ static void test_records(void)
     item_of(&record, "bed/torque")->rows = 199;
     g_assert_false(gb_bed_record(same, &record, &err));
     g_assert_nonnull(strstr(err.text, "bed/torque"));
+    item_of(&record, "bed/torque")->rows = 200;
+    g_assert_true(gb_bed_record(same, &record, &err));
+    *(double *)item_of(&record, "bed/skin")->data = (double)NAN;
+    g_assert_false(gb_bed_record(same, &record, &err));
+    g_assert_nonnull(strstr(err.text, "bed/skin"));
     gb_record_finish(&record);
     gb_bed_destroy(same);
     gb_bed_destroy(bed);
