@@ -4,7 +4,7 @@
 
 #include "pack/structure/grid.h"
 
-enum { POINTS = 60, IMAGES = 4 };
+enum { POINTS = 200, IMAGES = 4 };
 
 static struct gb_grid *make_grid(int dimension, const double edges[3], double size,
                                  GRand *random)
@@ -82,7 +82,8 @@ static bool near_ray(const double r[3], const void *data)
 static void compare(int found, double found_sum, int expected, double expected_sum)
 {
     g_assert_cmpint(found, ==, expected);
-    g_assert_cmpfloat_with_epsilon(found_sum, expected_sum, 1e-9);
+    g_assert_cmpfloat_with_epsilon(found_sum, expected_sum,
+                                   1e-9 + 1e-12 * fabs(expected_sum));
 }
 
 static void check_searches(int dimension, const double edges[3], double size,

@@ -111,16 +111,21 @@ static void position_of(const struct gb_chain_ray *growth,
     }
 }
 
-/* Neighbours within r_meso, 1 at least; stops counting at enough. */
-static int count_neighbours(const struct gb_chain_ray *growth, const double position[3],
-                            int enough)
+/* Neighbours within r_meso, 1 at least; stops counting at enough, or there where the new
+ * particle overlaps one. */
+static int count_neighbours(const struct gb_chain_ray *growth, const struct gb_roll *roll,
+                            const double position[3], int enough)
 {
+    const double meso = growth->grow->r_meso;
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
     int count = 0;
-    gb_grid_ball_init(&ball, growth->grid, position, growth->grow->r_meso);
+    gb_grid_ball_init(&ball, growth->grid, position, fmax(meso, gb_roll_clearance(roll)));
     while (count < enough && gb_grid_ball_next(&ball, &hit)) {
-        count++;
+        if (gb_roll_overlaps_hit(roll, &hit)) {
+            return enough;
+        }
+        count += hit.square <= meso * meso;
     }
     return count > 1 ? count : 1;
 }
@@ -181,10 +186,7 @@ choose_candidate(const struct gb_chain_ray *growth, const struct gb_roll *roll, 
         }
         candidate[i].least = INT32_MAX;
         position_of(growth, &candidate[i], position);
-        if (gb_roll_overlaps(roll, position)) {
-            continue;
-        }
-        const int neighbours = count_neighbours(growth, position, fewest + 1);
+        const int neighbours = count_neighbours(growth, roll, position, fewest + 1);
         if (neighbours < fewest || (neighbours == fewest && i < best)) {
             fewest = neighbours;
             best = i;

@@ -13,6 +13,9 @@ static const double cells_per_point = 8.0;
  * cell is not lost to rounding; the exact test follows. */
 static const double margin = 1e-9;
 
+/* Grid cells of a block along one axis, and in all. */
+enum { SIDE = 4, BLOCK = SIDE * SIDE * SIDE };
+
 static void choose_cells(struct gb_grid *grid, double size)
 {
     const int axes = grid->cell.periodic[1] ? 3 : 2;
@@ -20,10 +23,10 @@ static void choose_cells(struct gb_grid *grid, double size)
         gb_cell_volume(&grid->cell) / (cells_per_point * (double)grid->capacity + 64.0);
     const double least = fmax(size, axes == 3 ? gb_portable_cbrt(room) : sqrt(room));
     for (int k = 0; k < 3; k++) {
-        const double cells = floor(grid->cell.edge[k] / least);
-        const bool many = grid->cell.periodic[k] && cells > 1.0;
-        grid->cells[k] = many ? (int)fmin(cells, 1e6) : 1;
-        grid->size[k] = grid->cell.edge[k] / grid->cells[k];
+        const double blocks = floor(grid->cell.edge[k] / (SIDE * least));
+        const bool many = grid->cell.periodic[k] && blocks > 1.0;
+        grid->blocks[k] = many ? (int)fmin(blocks, 1e6) : 1;
+        grid->per_length[k] = SIDE * grid->blocks[k] / grid->cell.edge[k];
     }
 }
 
@@ -44,18 +47,22 @@ bool gb_grid_create(struct gb_grid **out, const struct gb_cell *cell, double siz
     grid->capacity = capacity;
     choose_cells(grid, size);
     const size_t points = capacity > 0 ? (size_t)capacity : 1;
-    const size_t cells =
-        (size_t)grid->cells[0] * (size_t)grid->cells[1] * (size_t)grid->cells[2];
+    const size_t blocks =
+        (size_t)grid->blocks[0] * (size_t)grid->blocks[1] * (size_t)grid->blocks[2];
     grid->position = gb_alloc_array(points, 3 * sizeof(double), err);
     if (!grid->position) {
         goto fail;
     }
-    grid->first = gb_alloc_array(cells, sizeof(int32_t), err);
-    if (!grid->first) {
+    grid->occupied = gb_alloc_array(blocks, sizeof(uint64_t), err);
+    if (!grid->occupied) {
         goto fail;
     }
-    grid->next = gb_alloc_array(points, sizeof(int32_t), err);
-    if (!grid->next) {
+    grid->last = gb_alloc_array(blocks, BLOCK * sizeof(uint32_t), err);
+    if (!grid->last) {
+        goto fail;
+    }
+    grid->previous = gb_alloc_array(points, sizeof(uint32_t), err);
+    if (!grid->previous) {
         goto fail;
     }
     *out = grid;
@@ -70,16 +77,17 @@ void gb_grid_destroy(struct gb_grid *grid)
     if (!grid) {
         return;
     }
-    gb_alloc_free(grid->next);
-    gb_alloc_free(grid->first);
+    gb_alloc_free(grid->previous);
+    gb_alloc_free(grid->last);
+    gb_alloc_free(grid->occupied);
     gb_alloc_free(grid->position);
     gb_alloc_free(grid);
 }
 
-static size_t cell_index(const struct gb_grid *grid, const int cell[3])
+static size_t block_index(const struct gb_grid *grid, const int block[3])
 {
-    const size_t row = (size_t)cell[0] * (size_t)grid->cells[1] + (size_t)cell[1];
-    return row * (size_t)grid->cells[2] + (size_t)cell[2];
+    const size_t row = (size_t)block[0] * (size_t)grid->blocks[1] + (size_t)block[1];
+    return row * (size_t)grid->blocks[2] + (size_t)block[2];
 }
 
 void gb_grid_insert(struct gb_grid *grid, const double x[3])
@@ -87,106 +95,170 @@ void gb_grid_insert(struct gb_grid *grid, const double x[3])
     double *wrapped = grid->position + 3 * grid->count;
     memcpy(wrapped, x, 3 * sizeof(double));
     gb_cell_wrap(&grid->cell, wrapped);
-    int cell[3];
+    int block[3], bit = 0;
     for (int k = 0; k < 3; k++) {
-        const int last = grid->cells[k] - 1;
-        const int at = last > 0 ? (int)(wrapped[k] / grid->size[k]) : 0;
-        cell[k] = at < last ? at : last;
+        const int last = SIDE * grid->blocks[k] - 1;
+        const int at =
+            grid->cell.periodic[k] ? (int)(wrapped[k] * grid->per_length[k]) : 0;
+        const int cell = at < last ? at : last;
+        block[k] = cell / SIDE;
+        bit = SIDE * bit + cell % SIDE;
     }
-    int32_t *first = &grid->first[cell_index(grid, cell)];
-    grid->next[grid->count] = *first;
+    const size_t index = block_index(grid, block);
+    uint32_t *last = &grid->last[BLOCK * index + (size_t)bit];
+    const bool empty = !(grid->occupied[index] >> bit & 1);
+    grid->previous[grid->count] = *last;
+    grid->occupied[index] |= (uint64_t)1 << bit;
+    *last = (uint32_t)grid->count | (empty ? 0 : GB_GRID_SEVERAL);
     grid->count++;
-    *first = (int32_t)grid->count;
+}
+
+/* The next lower whole number; |x| < 2^31. */
+static int lower(double x)
+{
+    const int toward_zero = (int)x;
+    return toward_zero - (x < toward_zero);
+}
+
+/* Of a quotient by SIDE, rounded down. */
+static int block_of(int cell)
+{
+    return (cell - (cell & (SIDE - 1))) / SIDE;
 }
 
 /* Sets the range of axis k to the grid cells that meet [from, to]. */
 static void window_range(struct gb_grid_window *window, const struct gb_grid *grid, int k,
                          double from, double to)
 {
-    const int cells = grid->cells[k];
+    const int blocks = grid->blocks[k];
     int low = 0;
     int high = 0;
     if (grid->cell.periodic[k]) {
-        low = (int)floor(from / grid->size[k] - margin);
-        high = (int)floor(to / grid->size[k] + margin);
+        low = lower(from * grid->per_length[k] - margin);
+        high = lower(to * grid->per_length[k] + margin);
     }
-    const int image = low >= 0 ? low / cells : -((cells - 1 - low) / cells);
+    const int block = block_of(low);
+    const int image = block >= 0 ? block / blocks : -((blocks - 1 - block) / blocks);
     window->low[k] = low;
     window->high[k] = high;
+    window->low_block[k] = block;
+    window->high_block[k] = block_of(high);
     window->low_image[k] = image;
-    window->low_cell[k] = low - image * cells;
+    window->low_wrapped[k] = block - image * blocks;
 }
 
-static void window_rewind(struct gb_grid_window *window, int k)
+/* The cells of the block at hand that lie within the range of axis k. */
+static uint64_t axis_mask(const struct gb_grid_window *window, int k)
 {
-    window->at[k] = window->low[k];
-    window->cell[k] = window->low_cell[k];
+    static const uint64_t all = UINT64_MAX;
+    static const uint64_t repeated[3] = {1, 0x0001000100010001, 0x1111111111111111};
+    const int block = SIDE * window->at[k];
+    const int low = window->low[k] > block ? window->low[k] - block : 0;
+    const int over = block + SIDE - 1 - window->high[k];
+    const int high = over > 0 ? over : 0;
+    /* Bits that one cell of the axis stands for, and all of the axis. */
+    const int width = k == 0 ? SIDE * SIDE : k == 1 ? SIDE : 1;
+    const int length = SIDE * width;
+    const uint64_t whole = all >> (BLOCK - length);
+    return ((whole << (low * width)) & (whole >> (high * width))) * repeated[k];
+}
+
+static void window_update(struct gb_grid_window *window, const struct gb_grid *grid,
+                          int k)
+{
+    window->shift[k] = window->image[k] * grid->cell.edge[k];
+    window->mask[k] = axis_mask(window, k);
+}
+
+static void window_rewind(struct gb_grid_window *window, const struct gb_grid *grid,
+                          int k)
+{
+    window->at[k] = window->low_block[k];
+    window->wrapped[k] = window->low_wrapped[k];
     window->image[k] = window->low_image[k];
+    window_update(window, grid, k);
+}
+
+/* Cells of the block at hand that hold points. */
+static uint64_t window_open(struct gb_grid_window *window, const struct gb_grid *grid)
+{
+    const size_t index = block_index(grid, window->wrapped);
+    window->last = grid->last + BLOCK * index;
+    return grid->occupied[index] & window->mask[0] & window->mask[1] & window->mask[2];
 }
 
 static void window_start(struct gb_grid_window *window, const struct gb_grid *grid)
 {
     for (int k = 0; k < 3; k++) {
-        window_rewind(window, k);
+        window_rewind(window, grid, k);
     }
-    window->first = grid->first + cell_index(grid, window->cell);
-    window->item = *window->first;
+    window->bits = window_open(window, grid);
+    window->unfinished = 0;
+    window->taken = 0;
+    window->found = 0;
 }
 
+/* To the next block. */
 static bool window_step(struct gb_grid_window *window, const struct gb_grid *grid)
 {
     for (int k = 2; k >= 0; k--) {
-        if (window->at[k] < window->high[k]) {
+        if (window->at[k] < window->high_block[k]) {
             window->at[k]++;
-            if (++window->cell[k] == grid->cells[k]) {
-                window->cell[k] = 0;
+            if (++window->wrapped[k] == grid->blocks[k]) {
+                window->wrapped[k] = 0;
                 window->image[k]++;
             }
+            window_update(window, grid, k);
             return true;
         }
-        window_rewind(window, k);
+        if (window->at[k] > window->low_block[k]) {
+            window_rewind(window, grid, k);
+        }
     }
     return false;
 }
 
-/* To the next grid cell, mostly the neighbour in memory. */
-static bool window_advance(struct gb_grid_window *window, const struct gb_grid *grid)
+/* Takes points of the next block that has some, not more than the window keeps. */
+static bool window_fill(struct gb_grid_window *window, const struct gb_grid *grid)
 {
-    if (window->at[2] < window->high[2] && window->cell[2] + 1 < grid->cells[2]) {
-        window->at[2]++;
-        window->cell[2]++;
-        window->first++;
-        return true;
-    }
-    if (!window_step(window, grid)) {
-        return false;
-    }
-    window->first = grid->first + cell_index(grid, window->cell);
-    return true;
-}
-
-/* Index of the next point in the window, or -1. */
-static int64_t window_next(struct gb_grid_window *window, const struct gb_grid *grid)
-{
-    while (window->item == 0) {
-        if (!window_advance(window, grid)) {
-            return -1;
+    uint64_t bits = window->bits;
+    uint32_t last = window->unfinished;
+    int found = 0;
+    for (;;) {
+        while ((last & GB_GRID_SEVERAL) && found < GB_GRID_WINDOW) {
+            last = grid->previous[last & ~GB_GRID_SEVERAL];
+            window->point[found++] = last & ~GB_GRID_SEVERAL;
         }
-        window->item = *window->first;
+        if (found == GB_GRID_WINDOW) {
+            break;
+        }
+        if (bits == 0) {
+            if (found > 0 || !window_step(window, grid)) {
+                break;
+            }
+            bits = window_open(window, grid);
+            continue;
+        }
+        last = window->last[__builtin_ctzll(bits)];
+        bits &= bits - 1;
+        __builtin_prefetch(grid->position + 3 * (last & ~GB_GRID_SEVERAL));
+        window->point[found++] = last & ~GB_GRID_SEVERAL;
     }
-    const int64_t index = window->item - 1;
-    window->item = grid->next[index];
-    return index;
+    window->bits = bits;
+    window->unfinished = last;
+    window->taken = 0;
+    window->found = found;
+    return found > 0;
 }
 
-/* r from origin to the image the window stands on; its square. */
-static double separation(const struct gb_grid *grid, const struct gb_grid_window *window,
-                         int64_t index, const double origin[3], double r[3])
+/* r from origin to an image of a point; its square. */
+static double separation(const struct gb_grid *grid, int64_t index, const double shift[3],
+                         const double origin[3], double r[3])
 {
     const double *x = grid->position + 3 * index;
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
-        r[k] = x[k] + window->image[k] * grid->cell.edge[k] - origin[k];
+        r[k] = x[k] + shift[k] - origin[k];
         square += r[k] * r[k];
     }
     return square;
@@ -206,33 +278,36 @@ void gb_grid_ball_init(struct gb_grid_ball *ball, const struct gb_grid *grid,
 
 bool gb_grid_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit)
 {
-    int64_t index;
-    while ((index = window_next(&ball->window, ball->grid)) >= 0) {
-        const double square =
-            separation(ball->grid, &ball->window, index, ball->centre, hit->r);
-        if (square <= ball->square) {
-            hit->index = index;
-            hit->square = square;
-            memcpy(hit->image, ball->window.image, sizeof(hit->image));
-            return true;
+    struct gb_grid_window *window = &ball->window;
+    do {
+        while (window->taken < window->found) {
+            const uint32_t index = window->point[window->taken++];
+            const double square =
+                separation(ball->grid, index, window->shift, ball->centre, hit->r);
+            if (square <= ball->square) {
+                hit->index = index;
+                hit->square = square;
+                memcpy(hit->image, window->image, sizeof(hit->image));
+                return true;
+            }
         }
-    }
+    } while (window_fill(window, ball->grid));
     return false;
 }
 
-/* Opens the window on the part of one slab that the cylinder around the ray crosses.  The
+/* Opens the window on the part of one slab of blocks that the cylinder around the ray crosses.  The
  * cylinder cuts a plane across `axis` in an ellipse; its half width along k is
  * reach sqrt(1 + slope^2), slope = direction_k / direction_axis. */
 static void open_slab(struct gb_grid_ray *ray)
 {
     const struct gb_grid *grid = ray->grid;
-    const double from = ray->slab * grid->size[ray->axis];
-    const double to = from + grid->size[ray->axis];
+    const double from = ray->slab * ray->thickness;
+    const double to = from + ray->thickness;
     for (int k = 0; k < 3; k++) {
         if (k == ray->axis) {
-            /* Half-way in, so that rounding cannot open a neighbour slab as well. */
-            const double middle = 0.5 * (from + to);
-            window_range(&ray->window, grid, k, middle, middle);
+            /* Off its borders, so that rounding cannot open a neighbour slab as well. */
+            const double inside = 0.1 * ray->thickness;
+            window_range(&ray->window, grid, k, from + inside, to - inside);
             continue;
         }
         const double slope = ray->direction[k] / ray->direction[ray->axis];
@@ -259,21 +334,33 @@ void gb_grid_ray_init(struct gb_grid_ray *ray, const struct gb_grid *grid,
             ray->axis = k;
         }
     }
-    const double size = grid->size[ray->axis];
+    ray->thickness = SIDE / grid->per_length[ray->axis];
     const double start = origin[ray->axis];
     const double end = start + length * direction[ray->axis];
-    ray->slab = (int)floor((fmin(start, end) - reach) / size - margin);
-    ray->last_slab = (int)floor((fmax(start, end) + reach) / size + margin);
+    ray->slab = (int)floor((fmin(start, end) - reach) / ray->thickness - margin);
+    ray->last_slab = (int)floor((fmax(start, end) + reach) / ray->thickness + margin);
     open_slab(ray);
+}
+
+/* False when the ray ends. */
+static bool next_slab(struct gb_grid_ray *ray)
+{
+    if (ray->slab == ray->last_slab) {
+        return false;
+    }
+    ray->slab++;
+    open_slab(ray);
+    return true;
 }
 
 bool gb_grid_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit)
 {
-    for (;;) {
-        int64_t index;
-        while ((index = window_next(&ray->window, ray->grid)) >= 0) {
+    struct gb_grid_window *window = &ray->window;
+    do {
+        while (window->taken < window->found) {
+            const uint32_t index = window->point[window->taken++];
             const double square =
-                separation(ray->grid, &ray->window, index, ray->origin, hit->r);
+                separation(ray->grid, index, window->shift, ray->origin, hit->r);
             const double along = hit->r[0] * ray->direction[0] +
                                  hit->r[1] * ray->direction[1] +
                                  hit->r[2] * ray->direction[2];
@@ -284,13 +371,9 @@ bool gb_grid_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit)
             hit->index = index;
             hit->square = square;
             hit->along = along;
-            memcpy(hit->image, ray->window.image, sizeof(hit->image));
+            memcpy(hit->image, window->image, sizeof(hit->image));
             return true;
         }
-        if (ray->slab == ray->last_slab) {
-            return false;
-        }
-        ray->slab++;
-        open_slab(ray);
-    }
+    } while (window_fill(window, ray->grid) || next_slab(ray));
+    return false;
 }

@@ -7,21 +7,34 @@
 #include "greenbody/status.h"
 #include "pack/cell/cell.h"
 
+/* Beside the index of a point: it is not the first one of its grid cell. */
+#define GB_GRID_SEVERAL ((uint32_t)1 << 31)
+
+/* Points that a search takes from a block at once. */
+enum { GB_GRID_WINDOW = 64 };
+
 /* Points of a periodic cell sorted into a grid that can grow point by point.  Searches
  * run over unwrapped grid indices, so that every periodic image is met once, also the
- * images beyond the nearest one and in cells smaller than the search. */
+ * images beyond the nearest one and in cells smaller than the search.
+ *
+ * Grid cells lie in blocks of 4 x 4 x 4, and one word tells which of a block's 64 cells
+ * hold points: a search visits these alone.  In 2D a block has one layer of cells. */
 struct gb_grid {
     struct gb_cell cell;
-    int cells[3];
-    double size[3]; /* of one grid cell */
+    int blocks[3];
+    double per_length[3]; /* grid cells per d */
     int64_t count;
     int64_t capacity;
-    double *position; /* capacity x 3, wrapped into the cell */
-    int32_t *first;   /* of each grid cell: index + 1 of its last point, 0 when empty */
-    int32_t *next;    /* of each point: index + 1 of the next one in its grid cell */
+    double *position;   /* capacity x 3, wrapped into the cell */
+    uint64_t *occupied; /* of each block: bit 16 x + 4 y + z for the cell x, y, z in it */
+    /* block x 64 + bit: the last point in that cell; if others were before it, together
+     * with the flag. */
+    uint32_t *last;
+    uint32_t *previous; /* of each point: the one before it in its cell, the same way */
 };
 
-/* size       grid cells are at least this wide (wider where points are few)
+/* size       grid cells are about this wide (wider where points are few, narrower in
+ *            cells of few blocks)
  * capacity   how many points may be inserted
  * Errors: GB_ERR_MEMORY; GB_ERR_INPUT for more than 2^31 - 2 points. */
 bool gb_grid_create(struct gb_grid **out, const struct gb_cell *cell, double size,
@@ -31,13 +44,19 @@ void gb_grid_destroy(struct gb_grid *grid); /* NULL is fine */
 /* Appends a point (finite; wrapped here).  The caller keeps to the capacity. */
 void gb_grid_insert(struct gb_grid *grid, const double x[3]);
 
-/* Iteration over a block of grid cells; private to grid.c. */
+/* Iteration over the grid cells of a cuboid; private to grid.c. */
 struct gb_grid_window {
-    int low[3], high[3], at[3]; /* unwrapped grid indices */
-    int low_cell[3], cell[3];   /* the same wrapped */
-    int low_image[3], image[3]; /* and which image of the cell they lie in */
-    const int32_t *first;       /* of the grid cell; see gb_grid */
-    int32_t item;
+    int low[3], high[3];                    /* unwrapped indices of grid cells */
+    int low_block[3], high_block[3], at[3]; /* and of their blocks */
+    int low_wrapped[3], wrapped[3];         /* blocks again, wrapped */
+    int low_image[3], image[3];             /* and which image of the cell they lie in */
+    double shift[3];                        /* of that image, d */
+    uint64_t mask[3];                       /* cells of a block within low and high */
+    uint64_t bits;                          /* cells of the block still to visit */
+    const uint32_t *last;                   /* of the block; see gb_grid */
+    uint32_t unfinished;                    /* flagged: others of its cell are to come */
+    uint32_t point[GB_GRID_WINDOW];         /* of the block at hand */
+    int taken, found;                       /* how many of them */
 };
 
 /* One image of one point. */
@@ -68,7 +87,8 @@ struct gb_grid_ray {
     double direction[3];
     double reach;
     double length;
-    int axis; /* the one the ray is closest to */
+    int axis;         /* the one the ray is closest to */
+    double thickness; /* of a slab of blocks */
     int slab, last_slab;
     struct gb_grid_window window;
 };

@@ -15,16 +15,25 @@ double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j)
     return law.mean_diameter - gb_law_unequal_equilibrium(&law);
 }
 
+double gb_roll_clearance(const struct gb_roll *roll)
+{
+    return (1.0 - GB_ROLL_TOLERANCE) * roll->r_eq;
+}
+
+bool gb_roll_overlaps_hit(const struct gb_roll *roll, const struct gb_grid_hit *hit)
+{
+    const double apart =
+        (1.0 - GB_ROLL_TOLERANCE) * gb_roll_contact_distance(roll, hit->index);
+    return roll->diameter ? hit->square < apart * apart : hit->square <= apart * apart;
+}
+
 bool gb_roll_overlaps(const struct gb_roll *roll, const double position[3])
 {
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
-    gb_grid_ball_init(&ball, roll->grid, position,
-                      (1.0 - GB_ROLL_TOLERANCE) * roll->r_eq);
+    gb_grid_ball_init(&ball, roll->grid, position, gb_roll_clearance(roll));
     while (gb_grid_ball_next(&ball, &hit)) {
-        const double apart =
-            (1.0 - GB_ROLL_TOLERANCE) * gb_roll_contact_distance(roll, hit.index);
-        if (!roll->diameter || hit.square < apart * apart) {
+        if (gb_roll_overlaps_hit(roll, &hit)) {
             return true;
         }
     }

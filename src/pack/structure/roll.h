@@ -25,6 +25,12 @@ struct gb_roll {
 /* Distance of the new particle to particle j in contact. */
 double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j);
 
+/* What is farther from the new particle does not overlap it, d. */
+double gb_roll_clearance(const struct gb_roll *roll);
+
+/* True if it overlaps the particle hit. */
+bool gb_roll_overlaps_hit(const struct gb_roll *roll, const struct gb_grid_hit *hit);
+
 /* True if a particle at this position overlaps an existing one. */
 bool gb_roll_overlaps(const struct gb_roll *roll, const double position[3]);
 
