@@ -43,7 +43,7 @@ static void sweep_pairs(struct gb_bed *bed, int64_t b, struct gb_bed_batch *batc
         rows.first = bed->pairs.first + slot;
         rows.other = bed->pairs.other + slot;
         rows.target = bed->pairs.target + slot;
-        bed->transfer.gather(&rows, batch);
+        bed->transfer.gather_pairs(&rows, batch);
         bed->pair_kernel(&bed->law, batch, &bed->pairs.contacts, slot);
         bed->transfer.scatter(&rows, batch);
     }

@@ -5,24 +5,6 @@
 #include "pack/kernel/bed_laws.h"
 #include "pack/kernel/simd.h"
 
-/* Pairs: normal, overlap and, with friction, lever from the branch vector.  The contact point
- * divides it as the radii do, so that the torques conserve angular momentum up to rounding. */
-INLINE void pair_geometry(struct bed_terms t, struct gb_bed_batch *restrict b)
-{
-#pragma omp simd
-    for (int k = 0; k < b->n; k++) {
-        const double x = b->branch[0][k], y = b->branch[1][k], z = b->branch[2][k];
-        const double r = sqrt(x * x + y * y + z * z), inverse = 1.0 / r;
-        b->unit[0][k] = x * inverse;
-        b->unit[1][k] = y * inverse;
-        b->unit[2][k] = z * inverse;
-        b->overlap[k] = b->reach[k] - r;
-        if (t.friction) {
-            b->lever[k] = r / b->reach[k];
-        }
-    }
-}
-
 /* Storakers: the elastic part y of overlap h on the loading curve, so that the force is
  * Hertz' at y.  With h_x the overlap where (2) and (16) meet, F = (16) means
  * y = h_x (h/h_x)^((2+m)/3): one power of a ratio near 1 instead of two of h.  Below h_x
@@ -224,9 +206,6 @@ INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
                                struct gb_bed_contacts *contacts, int64_t slot)           \
     {                                                                                    \
         const struct bed_terms t = {__VA_ARGS__};                                        \
-        if (!t.walls) {                                                                  \
-            pair_geometry(t, batch);                                                     \
-        }                                                                                \
         contact_forces(law, t, batch, contacts, slot);                                   \
     }
 

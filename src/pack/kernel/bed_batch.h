@@ -67,7 +67,7 @@ typedef void gb_bed_scatter(const struct gb_bed_rows *rows,
 
 /* The variant for this processor, widest as above; all give the same bits. */
 struct gb_bed_transfer {
-    gb_bed_gather *gather;
+    gb_bed_gather *gather, *gather_pairs;
     gb_bed_scatter *scatter;
 };
 struct gb_bed_transfer gb_bed_transfer_pick(int widest);

@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "pack/kernel/bed_batch.h"
 #include "pack/kernel/simd.h"
 
@@ -16,6 +18,22 @@ static void gather_rest(const struct gb_bed_rows *rows, struct gb_bed_batch *b, 
         for (int c = 0; c < 3 && rows->friction; c++) {
             b->roll[c][k] = rows->roll[i][c] + rows->roll[j][c];
         }
+    }
+}
+
+/* Pairs: normal, overlap and lever from the branch vector.  The contact point divides it as
+ * the radii do, so that the torques conserve angular momentum up to rounding. */
+static void measure_rest(struct gb_bed_batch *b, int done)
+{
+#pragma omp simd
+    for (int k = done; k < b->n; k++) {
+        const double x = b->branch[0][k], y = b->branch[1][k], z = b->branch[2][k];
+        const double r = sqrt(x * x + y * y + z * z), inverse = 1.0 / r;
+        b->unit[0][k] = x * inverse;
+        b->unit[1][k] = y * inverse;
+        b->unit[2][k] = z * inverse;
+        b->overlap[k] = b->reach[k] - r;
+        b->lever[k] = r / b->reach[k];
     }
 }
 
@@ -47,7 +65,14 @@ static void scatter_128(const struct gb_bed_rows *rows, const struct gb_bed_batc
     scatter_rest(rows, batch, 0);
 }
 
-static const struct gb_bed_transfer transfer_128 = {gather_128, scatter_128};
+static void gather_pairs_128(const struct gb_bed_rows *rows, struct gb_bed_batch *batch)
+{
+    gather_rest(rows, batch, 0);
+    measure_rest(batch, 0);
+}
+
+static const struct gb_bed_transfer transfer_128 = {gather_128, gather_pairs_128,
+                                                    scatter_128};
 
 #if defined(__x86_64__) && defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector)
@@ -73,9 +98,28 @@ typedef double v4 __attribute__((vector_size(32), aligned(8), may_alias));
 
 #define ROW(rows, i) (*(const v4 *)(rows)[i])
 
+/* As measure_rest, of four pairs.  Between gathered rows, as the processor divides and takes
+ * roots while it loads and shuffles. */
+GB_SIMD_LOOP GB_TARGET_256 void measure_four(const v4 branch[4], int k,
+                                             struct gb_bed_batch *b)
+{
+    const v4 x = branch[0], y = branch[1], z = branch[2], reach = branch[3];
+    const v4 square = x * x + y * y + z * z;
+    v4 r;
+    for (int p = 0; p < 4; p++) {
+        r[p] = sqrt(square[p]);
+    }
+    const v4 inverse = 1.0 / r;
+    *(v4 *)(b->unit[0] + k) = x * inverse;
+    *(v4 *)(b->unit[1] + k) = y * inverse;
+    *(v4 *)(b->unit[2] + k) = z * inverse;
+    *(v4 *)(b->overlap + k) = reach - r;
+    *(v4 *)(b->lever + k) = r / reach;
+}
+
 /* Rows of the particles of four pairs, then columns of the batch. */
-GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
-                                     struct gb_bed_batch *b)
+GB_SIMD_LOOP GB_TARGET_256 void gather_fours(const struct gb_bed_rows *rows,
+                                             struct gb_bed_batch *b, bool pairs)
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
     const gb_bed_row *restrict position = rows->position;
@@ -99,11 +143,17 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
         TRANSPOSE(branch[0], branch[1], branch[2], branch[3]);
         TRANSPOSE(slip[0], slip[1], slip[2], slip[3]);
         for (int c = 0; c < 3; c++) {
-            *(v4 *)(b->branch[c] + k) = branch[c];
             *(v4 *)(b->slip[c] + k) = slip[c];
         }
-        *(v4 *)(b->reach + k) = branch[3];
         *(v4 *)(b->held + k) = slip[3];
+        if (pairs) {
+            measure_four(branch, k, b);
+        } else {
+            for (int c = 0; c < 3; c++) {
+                *(v4 *)(b->branch[c] + k) = branch[c];
+            }
+            *(v4 *)(b->reach + k) = branch[3];
+        }
         if (friction) {
             TRANSPOSE(roll[0], roll[1], roll[2], roll[3]);
             for (int c = 0; c < 3; c++) {
@@ -112,6 +162,21 @@ GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
         }
     }
     gather_rest(rows, b, k);
+    if (pairs) {
+        measure_rest(b, k);
+    }
+}
+
+GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
+                                     struct gb_bed_batch *batch)
+{
+    gather_fours(rows, batch, false);
+}
+
+GB_TARGET_256 static void gather_pairs_256(const struct gb_bed_rows *rows,
+                                           struct gb_bed_batch *batch)
+{
+    gather_fours(rows, batch, true);
 }
 
 GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
@@ -149,7 +214,8 @@ GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
     scatter_rest(rows, b, k);
 }
 
-static const struct gb_bed_transfer transfer_256 = {gather_256, scatter_256};
+static const struct gb_bed_transfer transfer_256 = {gather_256, gather_pairs_256,
+                                                    scatter_256};
 #endif
 
 struct gb_bed_transfer gb_bed_transfer_pick(int widest)
