@@ -5,6 +5,7 @@
 
 #include "base/team/team.h"
 #include "pack/die/bed_walls.h"
+#include "pack/kernel/bed_motion.h"
 
 struct sweep {
     struct gb_bed *bed;
@@ -63,27 +64,17 @@ static void sweep_block(void *data, int64_t b)
     bed->blocks.block[b].tally.impact = batch.impact;
 }
 
-/* Rows of a crossing onto a particle: never the same. */
-static void add_row(double *restrict to, const double *restrict row)
-{
-    for (int k = 0; k < 4; k++) {
-        to[k] += row[k];
-    }
-}
-
 void gb_bed_sweep_sum_block(struct gb_bed *bed, int64_t b)
 {
     const struct gb_bed_blocks *blocks = &bed->blocks;
-    const gb_bed_row *force = (const gb_bed_row *)bed->force + gb_bed_crossing_rows(bed);
-    const gb_bed_row *moment =
-        (const gb_bed_row *)bed->moment + gb_bed_crossing_rows(bed);
-    const bool friction = bed->law.mu > 0.0;
-    for (int64_t e = blocks->entry[b]; e < blocks->entry[b + 1]; e++) {
-        const int32_t to = blocks->row_particle[e], from = blocks->row[e];
-        add_row(bed->force[to], force[from]);
-        if (friction) {
-            add_row(bed->moment[to], moment[from]);
-        }
+    const int64_t crossings = gb_bed_crossing_rows(bed), entry = blocks->entry[b];
+    const int64_t count = blocks->entry[b + 1] - entry;
+    const int32_t *particle = blocks->row_particle + entry, *row = blocks->row + entry;
+    gb_bed_motion_add_rows(bed->force, particle,
+                           (const gb_bed_row *)bed->force + crossings, row, count);
+    if (bed->law.mu > 0.0) {
+        gb_bed_motion_add_rows(bed->moment, particle,
+                               (const gb_bed_row *)bed->moment + crossings, row, count);
     }
 }
 

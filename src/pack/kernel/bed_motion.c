@@ -87,3 +87,22 @@ double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *roll, int64_t count,
     kick(v, roll, count, by, &fastest2);
     return sqrt(fastest2);
 }
+
+GB_SIMD_LOOP void add_rows_loop(gb_bed_row *restrict to, const int32_t *restrict particle,
+                                const gb_bed_row *restrict from,
+                                const int32_t *restrict number, int64_t count)
+{
+    for (int64_t e = 0; e < count; e++) {
+        ROW(to, particle[e]) += READ(from, number[e]);
+    }
+}
+GB_SIMD_WIDTHS(add_rows,
+               (gb_bed_row * to, const int32_t *particle, const gb_bed_row *from,
+                const int32_t *number, int64_t count),
+               (to, particle, from, number, count))
+
+void gb_bed_motion_add_rows(gb_bed_row *to, const int32_t *particle,
+                            const gb_bed_row *from, const int32_t *number, int64_t count)
+{
+    add_rows(to, particle, from, number, count);
+}

@@ -34,4 +34,9 @@ struct gb_bed_motion_kick {
 double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *roll, int64_t count,
                           const struct gb_bed_motion_kick *by);
 
+/* to[particle[e]] += from[number[e]] for e below count, in that order; no row of `from` is one
+ * of `to`. */
+void gb_bed_motion_add_rows(gb_bed_row *to, const int32_t *particle,
+                            const gb_bed_row *from, const int32_t *number, int64_t count);
+
 #endif
