@@ -156,19 +156,34 @@ static void evaluate(struct contact_set *set, size_t w, int step)
     b->step = 0.5;
     b->mu = set->mu;
     b->stiffest = b->impact = 0.0;
+    gb_bed_row position[2 * N], velocity[2 * N], roll[2 * N]; /* of pair k: k and N + k */
+    int32_t first[N], other[N];
     for (int k = 0; k < N; k++) {
         const struct motion *m = &set->motion[k];
         if (step == 0) {
             gb_bed_contacts_set(&set->contacts[w], k, set->law, m->radius, m->mass);
         }
-        b->reach[k] = m->radius[0] + m->radius[1];
-        b->held[k] = m->held[0] + m->held[1];
-        for (int c = 0; c < 3; c++) {
-            b->branch[c][k] = m->branch[c];
-            b->slip[c][k] = m->slip[c];
-            b->roll[c][k] = m->radius[0] * m->spin[0][c] + m->radius[1] * m->spin[1][c];
+        first[k] = k;
+        other[k] = N + k;
+        for (int side = 0; side < 2; side++) {
+            const int i = k + side * N;
+            for (int c = 0; c < 3; c++) {
+                position[i][c] = side ? 0.0 : m->branch[c];
+                velocity[i][c] = side ? 0.0 : m->slip[c];
+                roll[i][c] = m->radius[side] * m->spin[side][c];
+            }
+            position[i][3] = m->radius[side];
+            velocity[i][3] = m->held[side];
+            roll[i][3] = 0.0;
         }
     }
+    const struct gb_bed_rows rows = {.position = (const gb_bed_row *)position,
+                                     .velocity = (const gb_bed_row *)velocity,
+                                     .roll = (const gb_bed_row *)roll,
+                                     .first = first,
+                                     .other = other,
+                                     .friction = set->mu > 0.0};
+    gb_bed_transfer_pick(widths[w]).gather_pairs(&rows, b);
     gb_bed_batch_pick(set->law, GB_BED_PARTNER_PARTICLE, widths[w])(set->law, b,
                                                                     &set->contacts[w], 0);
 }
@@ -250,6 +265,28 @@ static void test_laws(void)
     }
 }
 
+/* What is gathered for pairs against their branch vectors, to the bit. */
+static void check_pairs(const struct gb_bed_transfer *transfer,
+                        const struct gb_bed_rows *rows, const struct gb_bed_batch *batch)
+{
+    static struct gb_bed_batch pairs;
+    memset(&pairs, 0, sizeof pairs);
+    pairs.n = batch->n;
+    transfer->gather_pairs(rows, &pairs);
+    for (int k = 0; k < batch->n; k++) {
+        const double x = batch->branch[0][k], y = batch->branch[1][k];
+        const double z = batch->branch[2][k], r = sqrt(x * x + y * y + z * z);
+        for (int c = 0; c < 3; c++) {
+            g_assert_cmpfloat(pairs.unit[c][k], ==, batch->branch[c][k] * (1.0 / r));
+            g_assert_cmpfloat(pairs.slip[c][k], ==, batch->slip[c][k]);
+            g_assert_cmpfloat(pairs.roll[c][k], ==, batch->roll[c][k]);
+        }
+        g_assert_cmpfloat(pairs.overlap[k], ==, batch->reach[k] - r);
+        g_assert_cmpfloat(pairs.lever[k], ==, r / batch->reach[k]);
+        g_assert_cmpfloat(pairs.held[k], ==, batch->held[k]);
+    }
+}
+
 /* Gather and scatter of batches of any length have the same bits at every vector width. */
 static void test_transfer(void)
 {
@@ -289,6 +326,7 @@ static void test_transfer(void)
                                                  .friction = friction};
                 batch[wide].n = n;
                 transfer.gather(&rows, &batch[wide]);
+                check_pairs(&transfer, &rows, &batch[wide]);
                 for (int c = 0; c < 3; c++) {
                     for (int k = 0; k < GB_BED_BATCH; k++) {
                         batch[wide].force[c][k] = cos(0.3 * k + c);

@@ -13,10 +13,10 @@ struct gb_bed_batch {
     int n;
     double step; /* time since the last evaluation, for the shear increments */
     double mu;
-    /* in: branch vector x_i - x_j and R_i + R_j; walls also unit, overlap, and lever = 1 -
-     * h/R */
+    /* branch vector x_i - x_j and R_i + R_j, from which those of the next line come */
     _Alignas(64) double branch[3][GB_BED_BATCH];
     double reach[GB_BED_BATCH];
+    /* in: normal, overlap h, and distance of the contact point from the centres over R */
     double unit[3][GB_BED_BATCH], overlap[GB_BED_BATCH], lever[GB_BED_BATCH];
     double slip[3][GB_BED_BATCH]; /* in: v_i - v_j of the centres */
     double held[GB_BED_BATCH];    /* in: stiffness over mass, summed over both partners */
@@ -51,8 +51,9 @@ typedef double gb_bed_row[4];
 
 /* The partners of a batch: rows first[k] and other[k] + from of contact k.  Without friction
  * neither roll nor moment is used.  Gather: branch vectors, relative velocities and sums
- * of radii into the batch; scatter: forces and moments back.  A wall is a row as well, at the
- * origin without radius, so that `branch` and `reach` are those of the particle. */
+ * of radii into the batch; of pairs normals, overlaps and levers instead of branch vectors and
+ * sums of radii.  Scatter: forces and moments back.  A wall is a row as well, at the origin
+ * without radius, so that `branch` and `reach` are those of the particle. */
 struct gb_bed_rows {
     const gb_bed_row *position, *velocity, *roll;
     gb_bed_row *force, *moment;
