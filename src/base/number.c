@@ -32,6 +32,23 @@ static long double scale(long double value, int power)
     return power >= 0 ? value * power_of_ten(power) : value / power_of_ten(-power);
 }
 
+/* The next positive number, above or below. */
+static double neighbour(double positive, bool above)
+{
+    uint64_t bits;
+    memcpy(&bits, &positive, sizeof bits);
+    bits += above ? 1 : UINT64_MAX;
+    memcpy(&positive, &bits, sizeof bits);
+    return positive;
+}
+
+/* The nearest whole number, halves upwards: roundl of a number from 0 to below 2^62. */
+static uint64_t nearest(long double value)
+{
+    const long long even = llrintl(value);
+    return (uint64_t)(even + (value - (long double)even == 0.5L));
+}
+
 enum answer { NO, YES, UNSURE };
 
 /* Does digits x 10^power read as value?  One correctly rounded operation of 64 bits
@@ -42,7 +59,7 @@ static enum answer reads_as(uint64_t digits, int power, double value)
     const long double near = scale((long double)digits, power);
     const double read = (double)near;
     const long double off = near - (long double)read; /* exact */
-    const double next = nextafter(read, off > 0.0L ? INFINITY : 0.0);
+    const double next = neighbour(read, off > 0.0L);
     const long double half = 0.5L * fabsl((long double)next - (long double)read);
     if (read != value && next != value) {
         return NO;
@@ -67,7 +84,12 @@ static int find_digits(double value, uint64_t *digits, int *power)
         return 0;
     }
     for (int more = 2; more >= 0; more--) {
-        const uint64_t some = (uint64_t)roundl(whole / power_of_ten(more));
+        const long double unit = power_of_ten(more);
+        const uint64_t some = nearest(whole / unit);
+        /* farther off than a whole last bit of a double: not the same one */
+        if (fabsl((long double)some * unit - whole) > whole * 0x1p-52L) {
+            continue;
+        }
         const enum answer answer = reads_as(some, *power + more, value);
         if (answer != NO) {
             *digits = some;
@@ -119,7 +141,6 @@ static char *write_slowly(double value, char *buffer)
 
 char *gb_number_write(double value, char buffer[GB_NUMBER_MAX])
 {
-    char digit[DIGITS + 3];
     uint64_t digits = 0;
     int power = 0;
     const int precision =
@@ -127,14 +148,13 @@ char *gb_number_write(double value, char buffer[GB_NUMBER_MAX])
     if (precision == 0) {
         return write_slowly(value, buffer);
     }
-    int count = 0;
-    for (uint64_t rest = digits; rest > 0; rest /= 10) {
-        count++;
+    char digit[DIGITS + 1];
+    int count =
+        precision + (digits >= (uint64_t)power_of_ten(precision)); /* rounded up */
+    for (int k = count; k > 0; digits /= 10) {
+        digit[--k] = (char)('0' + digits % 10);
     }
     const int exponent = power + count - 1;
-    for (uint64_t rest = digits, k = (uint64_t)count; k > 0; rest /= 10) {
-        digit[--k] = (char)('0' + rest % 10);
-    }
     while (count > 1 && digit[count - 1] == '0') {
         count--;
     }
