@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
-#include "pack/structure/grid.h"
+#include "pack/structure/grid_search.h"
 
 /* A grid finer than this share of the reach makes a search visit more cells than it
  * saves points. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "pack/structure/grid.h"
+#include "pack/structure/grid_search.h"
 
 enum { POINTS = 200, IMAGES = 4 };
 

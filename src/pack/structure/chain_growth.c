@@ -140,7 +140,7 @@ bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
     if (!growth.candidates) {
         goto close_rng;
     }
-    if (!gb_grid_create(&growth.grid, &cell, 1.0 * grow->r_eq, grow->count, err)) {
+    if (!gb_grid_create(&growth.grid, &cell, grid_size * grow->r_eq, grow->count, err)) {
         goto free_candidates;
     }
     insert_first(&growth);

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "pack/structure/chain_growth.h"
-#include "pack/structure/grid.h"
+#include "pack/structure/grid_search.h"
 
 /* Spheres of diameter r_eq whose centres lie within r_eq of a ray of n r_eq fill at most
  * the cylinder of radius 1.5 r_eq and length (n + 1) r_eq: 13.5 (n + 1) of them; discs

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pack/structure/grid.h"
+#include "pack/structure/grid_search.h"
 #include "scene/model.h"
 
 /* Centres closer than (1 - GB_ROLL_TOLERANCE) r_eq overlap.  Above the rounding of a
