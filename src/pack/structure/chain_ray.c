@@ -78,9 +78,9 @@ static int collect_candidates(struct gb_chain_ray *growth, const struct gb_roll 
     struct gb_grid_ray ray;
     struct gb_grid_hit hit;
     int count = 0;
-    gb_grid_ray_init(&ray, growth->grid, origin, direction, roll->r_eq,
-                     ray_length(growth, origin, direction));
-    while (count < growth->room && gb_grid_ray_next(&ray, &hit)) {
+    gb_grid_search_ray_init(&ray, growth->grid, origin, direction, roll->r_eq,
+                            ray_length(growth, origin, direction));
+    while (count < growth->room && gb_grid_search_ray_next(&ray, &hit)) {
         const double across = fmax(0.0, hit.square - hit.along * hit.along);
         const double touch = gb_roll_contact_distance(roll, hit.index);
         if (growth->diameter && across >= touch * touch) {
@@ -120,8 +120,9 @@ static int count_neighbours(const struct gb_chain_ray *growth, const struct gb_r
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
     int count = 0;
-    gb_grid_ball_init(&ball, growth->grid, position, fmax(meso, gb_roll_clearance(roll)));
-    while (count < enough && gb_grid_ball_next(&ball, &hit)) {
+    gb_grid_search_ball_init(&ball, growth->grid, position,
+                             fmax(meso, gb_roll_clearance(roll)));
+    while (count < enough && gb_grid_search_ball_next(&ball, &hit)) {
         if (gb_roll_overlaps_hit(roll, &hit)) {
             return enough;
         }

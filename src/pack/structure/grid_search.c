@@ -158,8 +158,8 @@ static double separation(const struct gb_grid *grid, int64_t index, const double
     return square;
 }
 
-void gb_grid_ball_init(struct gb_grid_ball *ball, const struct gb_grid *grid,
-                       const double centre[3], double reach)
+void gb_grid_search_ball_init(struct gb_grid_ball *ball, const struct gb_grid *grid,
+                              const double centre[3], double reach)
 {
     ball->grid = grid;
     ball->square = reach * reach;
@@ -170,7 +170,7 @@ void gb_grid_ball_init(struct gb_grid_ball *ball, const struct gb_grid *grid,
     window_start(&ball->window, grid);
 }
 
-bool gb_grid_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit)
+bool gb_grid_search_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit)
 {
     struct gb_grid_window *window = &ball->window;
     do {
@@ -213,9 +213,9 @@ static void open_slab(struct gb_grid_ray *ray)
     window_start(&ray->window, grid);
 }
 
-void gb_grid_ray_init(struct gb_grid_ray *ray, const struct gb_grid *grid,
-                      const double origin[3], const double direction[3], double reach,
-                      double length)
+void gb_grid_search_ray_init(struct gb_grid_ray *ray, const struct gb_grid *grid,
+                             const double origin[3], const double direction[3],
+                             double reach, double length)
 {
     ray->grid = grid;
     ray->reach = reach;
@@ -247,7 +247,7 @@ static bool next_slab(struct gb_grid_ray *ray)
     return true;
 }
 
-bool gb_grid_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit)
+bool gb_grid_search_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit)
 {
     struct gb_grid_window *window = &ray->window;
     do {

@@ -41,9 +41,9 @@ struct gb_grid_ball {
     struct gb_grid_window window;
 };
 
-void gb_grid_ball_init(struct gb_grid_ball *ball, const struct gb_grid *grid,
-                       const double centre[3], double reach);
-bool gb_grid_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit);
+void gb_grid_search_ball_init(struct gb_grid_ball *ball, const struct gb_grid *grid,
+                              const double centre[3], double reach);
+bool gb_grid_search_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit);
 
 /* All images within reach of a ray, with 0 <= along <= length, in no useful order. */
 struct gb_grid_ray {
@@ -58,9 +58,9 @@ struct gb_grid_ray {
     struct gb_grid_window window;
 };
 
-void gb_grid_ray_init(struct gb_grid_ray *ray, const struct gb_grid *grid,
-                      const double origin[3], const double direction[3], double reach,
-                      double length);
-bool gb_grid_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit);
+void gb_grid_search_ray_init(struct gb_grid_ray *ray, const struct gb_grid *grid,
+                             const double origin[3], const double direction[3],
+                             double reach, double length);
+bool gb_grid_search_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit);
 
 #endif

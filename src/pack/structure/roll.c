@@ -31,8 +31,8 @@ bool gb_roll_overlaps(const struct gb_roll *roll, const double position[3])
 {
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
-    gb_grid_ball_init(&ball, roll->grid, position, gb_roll_clearance(roll));
-    while (gb_grid_ball_next(&ball, &hit)) {
+    gb_grid_search_ball_init(&ball, roll->grid, position, gb_roll_clearance(roll));
+    while (gb_grid_search_ball_next(&ball, &hit)) {
         if (gb_roll_overlaps_hit(roll, &hit)) {
             return true;
         }
@@ -63,8 +63,8 @@ static bool nearest_partner(const struct gb_roll *roll, double reach, const doub
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
     double nearest = INFINITY;
-    gb_grid_ball_init(&ball, roll->grid, j, reach + roll->r_eq);
-    while (gb_grid_ball_next(&ball, &hit)) {
+    gb_grid_search_ball_init(&ball, roll->grid, j, reach + roll->r_eq);
+    while (gb_grid_search_ball_next(&ball, &hit)) {
         const double distance = square_of_difference(hit.r, offset);
         if (hit.square > 0.0 && distance < nearest) {
             const double touch = gb_roll_contact_distance(roll, hit.index);
