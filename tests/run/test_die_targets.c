@@ -12,10 +12,11 @@
 #include "solve/loading/die/die_stages.h"
 
 /* The targets of P3's experiment: three beds, each filled once and pressed by every
- * model, and as many again by the frictionless ones only: one bed scatters by as much as
- * those are allowed to differ.  Prints the table. */
+ * model, as many again by the frictionless ones only, and more by the frictionless ones at
+ * `fast`: the difference of two laws scatters by 0.0013 from bed to bed, and they are allowed
+ * 0.003.  Prints the table. */
 
-enum { BEDS = 3, COMPARED = 6, MARKS = 4 };
+enum { BEDS = 3, COMPARED = 6, OF_LAWS = 18, MARKS = 4 };
 
 static const double marks_mpa[MARKS] = {2.0, 10.0, 25.0, 50.0};
 
@@ -25,10 +26,10 @@ struct model {
 
 static const struct model models[] = {
     {"p3-hertz-mu0", "numerics.fidelity=fast"},
-    {"p3-hertz-mu0", NULL}, /* balanced */
     {"p3-storakers-m0-mu0", "numerics.fidelity=fast"},
     {"p3-storakers-m0.1-mu0", "numerics.fidelity=fast"},
     {"p3-storakers-m0.2-mu0", "numerics.fidelity=fast"},
+    {"p3-hertz-mu0", NULL}, /* balanced */
     {"p3-hertz-mu0.01", "numerics.fidelity=fast"},
     {"p3-hertz-mu0.02", "numerics.fidelity=fast"},
     {"p3-hertz-mu0.05", "numerics.fidelity=fast"},
@@ -40,8 +41,8 @@ static const struct model models[] = {
 enum {
     MODELS = G_N_ELEMENTS(models),
     FAST = 0,
-    BALANCED = 1,
-    STORAKERS = 2,
+    STORAKERS = 1,
+    BALANCED = 4,
     HERTZ_MU = 5
 };
 
@@ -255,26 +256,26 @@ static void check_fidelity(const struct bed_result *bed)
 /* Standard error of the mean difference of two models, which press the same beds. */
 static double error_of_difference(const struct bed_result *bed, int a, int b, int mark)
 {
-    const double mean = mean_of(bed, COMPARED, a, mark) - mean_of(bed, COMPARED, b, mark);
+    const double mean = mean_of(bed, OF_LAWS, a, mark) - mean_of(bed, OF_LAWS, b, mark);
     double square = 0.0;
-    for (int k = 0; k < COMPARED; k++) {
+    for (int k = 0; k < OF_LAWS; k++) {
         const double apart =
             bed[k].model[a].whole[mark] - bed[k].model[b].whole[mark] - mean;
         square += apart * apart;
     }
-    return sqrt(square / (COMPARED * (COMPARED - 1.0)));
+    return sqrt(square / (OF_LAWS * (OF_LAWS - 1.0)));
 }
 
 static void check_means(const struct bed_result *bed)
 {
     for (int k = 0; k < MARKS; k++) {
         for (int m = STORAKERS; m < STORAKERS + 3; m++) {
-            const double law = mean_of(bed, COMPARED, m, k);
-            const double hertz = mean_of(bed, COMPARED, FAST, k);
+            const double law = mean_of(bed, OF_LAWS, m, k);
+            const double hertz = mean_of(bed, OF_LAWS, FAST, k);
             const double error = error_of_difference(bed, m, FAST, k);
             g_test_message("%s less Hertz at %g MPa: %+.4f +- %.4f", models[m].preset,
                            marks_mpa[k], law - hertz, error);
-            g_assert_cmpfloat(error, <, 0.001);
+            g_assert_cmpfloat(error, <, 0.0005);
             g_assert_cmpfloat_with_epsilon(law, hertz, 0.003);
         }
     }
@@ -292,9 +293,9 @@ static void check_means(const struct bed_result *bed)
 
 static void test_targets(void)
 {
-    struct bed_result bed[COMPARED];
-    for (int b = 0; b < COMPARED; b++) {
-        bed[b] = study(b + 1, b < BEDS ? MODELS : HERTZ_MU);
+    struct bed_result bed[OF_LAWS];
+    for (int b = 0; b < OF_LAWS; b++) {
+        bed[b] = study(b + 1, b < BEDS ? MODELS : b < COMPARED ? HERTZ_MU : BALANCED);
     }
     for (int b = 0; b < BEDS; b++) {
         check_bed(&bed[b]);
