@@ -170,22 +170,26 @@ void gb_grid_search_ball_init(struct gb_grid_ball *ball, const struct gb_grid *g
     window_start(&ball->window, grid);
 }
 
+/* The next point of the window, near or not; r from origin. */
+static bool window_next(struct gb_grid_window *window, const struct gb_grid *grid,
+                        const double origin[3], struct gb_grid_hit *hit)
+{
+    if (window->taken == window->found && !window_fill(window, grid)) {
+        return false;
+    }
+    hit->index = window->point[window->taken++];
+    hit->square = separation(grid, hit->index, window->shift, origin, hit->r);
+    memcpy(hit->image, window->image, sizeof(hit->image));
+    return true;
+}
+
 bool gb_grid_search_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit)
 {
-    struct gb_grid_window *window = &ball->window;
-    do {
-        while (window->taken < window->found) {
-            const uint32_t index = window->point[window->taken++];
-            const double square =
-                separation(ball->grid, index, window->shift, ball->centre, hit->r);
-            if (square <= ball->square) {
-                hit->index = index;
-                hit->square = square;
-                memcpy(hit->image, window->image, sizeof(hit->image));
-                return true;
-            }
+    while (window_next(&ball->window, ball->grid, ball->centre, hit)) {
+        if (hit->square <= ball->square) {
+            return true;
         }
-    } while (window_fill(window, ball->grid));
+    }
     return false;
 }
 
@@ -249,25 +253,17 @@ static bool next_slab(struct gb_grid_ray *ray)
 
 bool gb_grid_search_ray_next(struct gb_grid_ray *ray, struct gb_grid_hit *hit)
 {
-    struct gb_grid_window *window = &ray->window;
     do {
-        while (window->taken < window->found) {
-            const uint32_t index = window->point[window->taken++];
-            const double square =
-                separation(ray->grid, index, window->shift, ray->origin, hit->r);
+        while (window_next(&ray->window, ray->grid, ray->origin, hit)) {
             const double along = hit->r[0] * ray->direction[0] +
                                  hit->r[1] * ray->direction[1] +
                                  hit->r[2] * ray->direction[2];
-            if (along < 0.0 || along > ray->length ||
-                square - along * along > ray->reach * ray->reach) {
-                continue;
+            if (along >= 0.0 && along <= ray->length &&
+                hit->square - along * along <= ray->reach * ray->reach) {
+                hit->along = along;
+                return true;
             }
-            hit->index = index;
-            hit->square = square;
-            hit->along = along;
-            memcpy(hit->image, window->image, sizeof(hit->image));
-            return true;
         }
-    } while (window_fill(window, ray->grid) || next_slab(ray));
+    } while (next_slab(ray));
     return false;
 }
