@@ -15,6 +15,7 @@ typedef float gb_row_pair __attribute__((vector_size(32))); /* two of them */
 typedef int32_t gb_row_int __attribute__((vector_size(16)));
 typedef int32_t gb_row_int_pair __attribute__((vector_size(32)));
 typedef uint32_t gb_row_word __attribute__((vector_size(16)));
+typedef uint32_t gb_row_word_pair __attribute__((vector_size(32)));
 
 GB_ROW_INLINE gb_row gb_row_load(const float *from)
 {
@@ -28,28 +29,38 @@ GB_ROW_INLINE void gb_row_store(float *to, gb_row row)
     memcpy(to, &row, sizeof row);
 }
 
-/* a - b of whole numbers, wrapping around, as float. */
-GB_ROW_INLINE gb_row gb_row_difference(const int32_t *a, const int32_t *b)
+/* Two rows beside each other. */
+GB_ROW_INLINE void gb_row_beside(const float *low, const float *high, gb_row_pair *both)
 {
-    gb_row_word wa, wb;
-    memcpy(&wa, a, sizeof wa);
-    memcpy(&wb, b, sizeof wb);
-    const gb_row_word wide = wa - wb;
-    gb_row_int difference;
-    memcpy(&difference, &wide, sizeof difference);
-    return __builtin_convertvector(difference, gb_row);
+    *both = __builtin_shufflevector(gb_row_load(low), gb_row_load(high), 0, 1, 2, 3, 4, 5,
+                                    6, 7);
 }
 
-/* The first three numbers of four rows, as columns of four. */
-GB_ROW_INLINE void gb_row_columns(const gb_row row[4], float *x, float *y, float *z)
+/* Two rows of whole numbers beside each other. */
+GB_ROW_INLINE void gb_row_words_beside(const int32_t *low, const int32_t *high,
+                                       gb_row_word_pair *both)
 {
-    const gb_row low01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    const gb_row low23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    const gb_row high01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    const gb_row high23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    gb_row_store(x, __builtin_shufflevector(low01, low23, 0, 1, 4, 5));
-    gb_row_store(y, __builtin_shufflevector(low01, low23, 2, 3, 6, 7));
-    gb_row_store(z, __builtin_shufflevector(high01, high23, 0, 1, 4, 5));
+    gb_row_word of_low, of_high;
+    memcpy(&of_low, low, sizeof of_low);
+    memcpy(&of_high, high, sizeof of_high);
+    *both = __builtin_shufflevector(of_low, of_high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+/* The first three numbers of rows l (low halves) and l + 4 (high halves), as columns of
+ * eight. */
+GB_ROW_INLINE void gb_row_pair_columns(const gb_row_pair row[4], gb_row_pair column[3])
+{
+    const gb_row_pair low01 =
+        __builtin_shufflevector(row[0], row[1], 0, 8, 1, 9, 4, 12, 5, 13);
+    const gb_row_pair low23 =
+        __builtin_shufflevector(row[2], row[3], 0, 8, 1, 9, 4, 12, 5, 13);
+    const gb_row_pair high01 =
+        __builtin_shufflevector(row[0], row[1], 2, 10, 3, 11, 6, 14, 7, 15);
+    const gb_row_pair high23 =
+        __builtin_shufflevector(row[2], row[3], 2, 10, 3, 11, 6, 14, 7, 15);
+    column[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+    column[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+    column[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
 }
 
 /* Back: rows of three columns; their fourth numbers are 0. */

@@ -25,34 +25,45 @@ _Static_assert((int)AT_ONCE <= (int)GB_CROSS_ROWS_SLACK, "in_row is long enough"
 /* What a batch gathers: far pairs have no springs. */
 enum { BRANCH_ONLY = 0, WITH_ROTATIONS = 1 };
 
-/* Branch vectors of `count` pairs (at most four) into the columns of a batch from index k
+/* Branch vectors of `count` pairs (at most eight) into the columns of a batch from index k
  * on; with rotations also their sums and differences. */
-GB_ROW_INLINE void gather_four(const struct gb_f32_state *f32,
-                               const struct gb_pair_list *list,
-                               struct gb_batch_f32 *restrict batch, int64_t slot, int k,
-                               int count, bool rotations)
+GB_ROW_INLINE void gather_eight(const struct gb_f32_state *f32,
+                                const struct gb_pair_list *list,
+                                struct gb_batch_f32 *restrict batch, int64_t slot, int k,
+                                int count, bool rotations)
 {
-    const gb_row scale = {f32->scale[0], f32->scale[1], f32->scale[2], 0.0F};
+    const struct gb_f32_particle *particle = f32->particle;
     const int32_t *first = list->first + slot + k, *other = list->other + slot + k;
-    gb_row branch[4], sum[4], difference[4];
+    gb_row_pair apart[4], ti[4], tj[4], x[3], y[3];
     for (int l = 0; l < 4; l++) {
-        const int at = l < count ? l : 0; /* behind the last pair: any */
-        const struct gb_f32_particle *i = &f32->particle[first[at]];
-        const struct gb_f32_particle *j = &f32->particle[other[at]];
-        branch[l] = gb_row_difference(i->position, j->position) * scale;
+        const int low = l < count ? l : 0; /* behind the last pair: any */
+        const int high = l + 4 < count ? l + 4 : 0;
+        const struct gb_f32_particle *i = &particle[first[low]], *j = &particle[other[low]];
+        const struct gb_f32_particle *i4 = &particle[first[high]];
+        const struct gb_f32_particle *j4 = &particle[other[high]];
+        gb_row_word_pair pi, pj;
+        gb_row_words_beside(i->position, i4->position, &pi);
+        gb_row_words_beside(j->position, j4->position, &pj);
+        apart[l] = (gb_row_pair)(pi - pj);
         if (rotations) {
-            const gb_row ti = gb_row_load(i->rotation), tj = gb_row_load(j->rotation);
-            sum[l] = ti + tj;
-            difference[l] = ti - tj;
+            gb_row_beside(i->rotation, i4->rotation, &ti[l]);
+            gb_row_beside(j->rotation, j4->rotation, &tj[l]);
         }
     }
-    gb_row_columns(branch, batch->r[0] + k, batch->r[1] + k, batch->r[2] + k);
+    gb_row_pair_columns(apart, x);
+    for (int c = 0; c < 3; c++) {
+        const gb_row_pair r =
+            __builtin_convertvector((gb_row_int_pair)x[c], gb_row_pair) * f32->scale[c];
+        memcpy(batch->r[c] + k, &r, sizeof r);
+    }
     if (rotations) {
-        gb_row_columns(sum, batch->rotation_sum[0] + k, batch->rotation_sum[1] + k,
-                       batch->rotation_sum[2] + k);
-        gb_row_columns(difference, batch->rotation_difference[0] + k,
-                       batch->rotation_difference[1] + k,
-                       batch->rotation_difference[2] + k);
+        gb_row_pair_columns(ti, x);
+        gb_row_pair_columns(tj, y);
+        for (int c = 0; c < 3; c++) {
+            const gb_row_pair sum = x[c] + y[c], difference = x[c] - y[c];
+            memcpy(batch->rotation_sum[c] + k, &sum, sizeof sum);
+            memcpy(batch->rotation_difference[c] + k, &difference, sizeof difference);
+        }
     }
 }
 
@@ -61,11 +72,11 @@ GB_ROW_INLINE void gather(const struct gb_f32_state *f32, const struct gb_pair_l
                           bool rotations)
 {
     int k = 0;
-    for (; k + 4 <= batch->n; k += 4) {
-        gather_four(f32, list, batch, slot, k, 4, rotations);
+    for (; k + 8 <= batch->n; k += 8) {
+        gather_eight(f32, list, batch, slot, k, 8, rotations);
     }
     if (k < batch->n) {
-        gather_four(f32, list, batch, slot, k, batch->n - k, rotations);
+        gather_eight(f32, list, batch, slot, k, batch->n - k, rotations);
     }
 }
 
