@@ -197,8 +197,8 @@ static void wrench_of(const struct gb_engine *engine, int64_t i, double wrench[6
 {
     for (int c = 0; c < 3; c++) {
         if (engine->state.forces == GB_ENGINE_FORCES_F32) {
-            wrench[c] = (double)engine->f32.wrench[i][c];
-            wrench[3 + c] = (double)engine->f32.wrench[i][GB_F32_STATE_TORQUE + c];
+            wrench[c] = (double)engine->f32.rows.row[i][c];
+            wrench[3 + c] = (double)engine->f32.rows.row[i][GB_WRENCH_ROWS_TORQUE + c];
         } else {
             wrench[c] = engine->particles.force[3 * i + c];
             wrench[3 + c] = engine->particles.torque[3 * i + c];

@@ -6,7 +6,7 @@
 #include "pack/list/blocks.h"
 
 /* Where the torque begins in a row of force and torque. */
-enum { TORQUE = GB_F32_STATE_TORQUE };
+enum { TORQUE = GB_WRENCH_ROWS_TORQUE };
 
 void gb_f32_convert_particles(struct gb_engine *engine, int64_t begin, int64_t end)
 {
@@ -70,8 +70,8 @@ static void widen_range(void *data, int64_t begin, int64_t end)
     struct gb_particles *particles = &engine->particles;
     for (int64_t i = begin; i < end; i++) {
         for (int c = 0; c < 3; c++) {
-            particles->force[3 * i + c] = (double)engine->f32.wrench[i][c];
-            particles->torque[3 * i + c] = (double)engine->f32.wrench[i][TORQUE + c];
+            particles->force[3 * i + c] = (double)engine->f32.rows.row[i][c];
+            particles->torque[3 * i + c] = (double)engine->f32.rows.row[i][TORQUE + c];
         }
     }
 }
@@ -91,8 +91,8 @@ void gb_f32_convert_forces_from_f64(struct gb_engine *engine)
     const struct gb_particles *particles = &engine->particles;
     for (int64_t i = 0; gb_engine_is_f32(engine) && i < particles->count; i++) {
         for (int c = 0; c < 3; c++) {
-            engine->f32.wrench[i][c] = (float)particles->force[3 * i + c];
-            engine->f32.wrench[i][TORQUE + c] = (float)particles->torque[3 * i + c];
+            engine->f32.rows.row[i][c] = (float)particles->force[3 * i + c];
+            engine->f32.rows.row[i][TORQUE + c] = (float)particles->torque[3 * i + c];
         }
     }
 }

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/f32/cross_rows.h"
+#include "pack/f32/wrench_rows.h"
 #include "pack/kernel/batch/batch.h"
 #include "pack/list/neighbour_list.h"
 
@@ -14,10 +14,6 @@ struct gb_f32_particle {
     int32_t position[4]; /* fixed-point (fixed_position.h); the fourth is not used */
     float rotation[4];   /* increment since the last evaluation, rad */
 };
-
-/* Numbers in a row: force and torque on a particle, each with a fourth number that is 0,
- * and where the torque begins; an attraction. */
-enum { GB_F32_STATE_WRENCH = 8, GB_F32_STATE_TORQUE = 4, GB_F32_STATE_PULL = 4 };
 
 /* Neighbours in memory that share one bound of their displacements; divides a block. */
 enum { GB_F32_STATE_GROUP = 32 };
@@ -29,9 +25,7 @@ enum { GB_F32_STATE_PREFETCH = 16384 };
 struct gb_f32_state {
     struct gb_batch_f32_kernel kernel;
     struct gb_f32_particle *particle;     /* count */
-    float (*wrench)[GB_F32_STATE_WRENCH]; /* count: force and torque on it */
-    struct gb_cross_rows near;            /* rows: wrench on the second particle */
-    struct gb_cross_rows far;             /* rows: attraction on it */
+    struct gb_wrench_rows rows;           /* forces and torques on them */
     float scale[3]; /* size of a fixed-point unit at the last evaluation, d */
     /* Velocities of integrate_f32.c: count x 3, and one number more each. */
     float *velocity, *spin;
@@ -49,6 +43,6 @@ void gb_f32_state_finish(struct gb_f32_state *f32);
 /* After a build of the lists: rows for their cross pairs, fixed-point positions.  On
  * failure nothing may be evaluated. */
 bool gb_f32_state_use_lists(struct gb_f32_state *f32,
-                            const struct gb_neighbour_list *list, struct gb_error *err);
+                            struct gb_neighbour_list *list, struct gb_error *err);
 
 #endif

@@ -29,7 +29,7 @@ GB_SIMD_LOOP void prefetch_bytes(const void *from, size_t bytes)
 GB_SIMD_LOOP void prefetch_tile(const struct gb_f32_state *f32, int64_t begin)
 {
     const int64_t at = 3 * begin;
-    prefetch_bytes(f32->wrench + begin, TILE * sizeof *f32->wrench);
+    prefetch_bytes(f32->rows.row + begin, TILE * sizeof *f32->rows.row);
     prefetch_bytes(f32->particle + begin, TILE * sizeof *f32->particle);
     prefetch_bytes(f32->velocity + at, NUMBERS * sizeof *f32->velocity);
     prefetch_bytes(f32->spin + at, NUMBERS * sizeof *f32->spin);
@@ -43,7 +43,7 @@ GB_SIMD_LOOP void update_tile(struct gb_f32_state *f32, const struct pass *pass,
     float *v = f32->velocity + at, *w = f32->spin + at;
     struct tile s;
     s.rotation[n] = 0.0F;
-    load_forces(f32->wrench + begin, pass->diameter ? pass->diameter + begin : NULL,
+    load_forces(f32->rows.row + begin, pass->diameter ? pass->diameter + begin : NULL,
                 particles, &s);
     update_velocity(pass, pass->kick, n, s.force, v, s.displacement, s.square);
     const bool too_fast = find_too_fast(pass, particles, &s);

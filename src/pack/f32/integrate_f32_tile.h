@@ -53,7 +53,7 @@ struct motion {
 };
 
 /* Forces over the masses, which are the diameters (NULL: all 1). */
-GB_SIMD_LOOP void load_forces(float (*wrench)[GB_F32_STATE_WRENCH],
+GB_SIMD_LOOP void load_forces(float (*wrench)[GB_WRENCH_ROWS_WIDTH],
                               const double *diameter, int particles,
                               struct tile *restrict tile)
 {

@@ -10,17 +10,8 @@
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 
-/* Widths of rows, and where the torque begins in a row of force and torque. */
-enum {
-    WRENCH = GB_F32_STATE_WRENCH,
-    PULL = GB_F32_STATE_PULL,
-    TORQUE = GB_F32_STATE_TORQUE
-};
-
-/* Rows of one particle that are summed without a branch: few particles have more, and the
- * unused ones cost little. */
-enum { AT_ONCE = 4 };
-_Static_assert((int)AT_ONCE <= (int)GB_CROSS_ROWS_SLACK, "in_row is long enough");
+/* Where the torque begins in a row of force and torque. */
+enum { TORQUE = GB_WRENCH_ROWS_TORQUE };
 
 /* What a batch gathers: far pairs have no springs. */
 enum { BRANCH_ONLY = 0, WITH_ROTATIONS = 1 };
@@ -92,21 +83,6 @@ GB_ROW_INLINE void gather_diameters(const struct gb_engine *engine,
     }
 }
 
-/* Destination of the forces of a block: the second particle of a pair too while it lies
- * before `end`, else the next row. */
-struct target {
-    float (*wrench)[WRENCH];
-    float *row;
-    int32_t end;
-};
-
-static struct target target_of(const struct gb_engine *engine,
-                               const struct gb_cross_rows *rows, int width, int64_t b)
-{
-    return (struct target){engine->f32.wrench, rows->row + width * rows->start[b],
-                           (int32_t)gb_blocks_end(engine->particles.count, b)};
-}
-
 /* Rows of force and torque for both particles of four pairs. */
 GB_ROW_INLINE void wrench_rows(const struct gb_batch_f32 *batch, int k,
                                gb_row_pair on_first[4], gb_row_pair on_other[4])
@@ -124,54 +100,50 @@ GB_ROW_INLINE void wrench_rows(const struct gb_batch_f32 *batch, int k,
 
 /* Adds the results of `count` pairs (at most four) from index k of a batch on to their
  * particles, pair by pair: sums have the order of the list. */
-GB_ROW_INLINE struct target scatter_wrenches(const struct gb_batch_f32 *batch,
-                                             const int32_t *first, const int32_t *other,
-                                             int k, int count, struct target to)
+GB_ROW_INLINE void scatter_wrenches(const struct gb_batch_f32 *batch,
+                                    const struct gb_pair_list *list, int64_t slot, int k,
+                                    int count, float (*row)[GB_WRENCH_ROWS_WIDTH])
 {
+    const int32_t *first = list->first + slot + k, *other = list->row + slot + k;
     gb_row_pair on_first[4], on_other[4];
     wrench_rows(batch, k, on_first, on_other);
     for (int l = 0; l < count; l++) {
-        const int32_t i = first[k + l], j = other[k + l];
-        const bool here = j < to.end;
-        gb_row_pair_add(to.wrench[i], &on_first[l]);
-        gb_row_pair_add_if(here ? to.wrench[j] : to.row, here, &on_other[l]);
-        to.row += here ? 0 : WRENCH;
+        gb_row_pair_add(row[first[l]], &on_first[l]);
+        gb_row_pair_add(row[other[l]], &on_other[l]);
     }
-    return to;
 }
 
 /* The same for attractions. */
-GB_ROW_INLINE struct target scatter_pulls(const struct gb_batch_f32 *batch,
-                                          const int32_t *first, const int32_t *other,
-                                          int k, int count, struct target to)
+GB_ROW_INLINE void scatter_pulls(const struct gb_batch_f32 *batch,
+                                 const struct gb_pair_list *list, int64_t slot, int k,
+                                 int count, float (*row)[GB_WRENCH_ROWS_WIDTH])
 {
+    const int32_t *first = list->first + slot + k, *other = list->row + slot + k;
     gb_row pull[4];
     gb_row_of_columns(batch->force[0] + k, batch->force[1] + k, batch->force[2] + k,
                       pull);
     for (int l = 0; l < count; l++) {
-        const int32_t i = first[k + l], j = other[k + l];
-        const bool here = j < to.end;
-        gb_row_add(to.wrench[i], pull[l]);
-        gb_row_add_if(here ? to.wrench[j] : to.row, here, -pull[l]);
-        to.row += here ? 0 : PULL;
+        gb_row_add(row[first[l]], pull[l]);
+        gb_row_add(row[other[l]], -pull[l]);
     }
-    return to;
 }
 
-typedef struct target scatter_four(const struct gb_batch_f32 *batch, const int32_t *first,
-                                   const int32_t *other, int k, int count,
-                                   struct target to);
+typedef void scatter_four(const struct gb_batch_f32 *batch,
+                          const struct gb_pair_list *list, int64_t slot, int k, int count,
+                          float (*row)[GB_WRENCH_ROWS_WIDTH]);
 
 /* A whole batch, four pairs at a time. */
-GB_ROW_INLINE struct target scatter(const struct gb_batch_f32 *batch,
-                                    const int32_t *first, const int32_t *other,
-                                    struct target to, scatter_four *four)
+GB_ROW_INLINE void scatter(const struct gb_batch_f32 *batch,
+                           const struct gb_pair_list *list, int64_t slot,
+                           float (*row)[GB_WRENCH_ROWS_WIDTH], scatter_four *four)
 {
     int k = 0;
     for (; k + 4 <= batch->n; k += 4) {
-        to = four(batch, first, other, k, 4, to);
+        four(batch, list, slot, k, 4, row);
     }
-    return k < batch->n ? four(batch, first, other, k, batch->n - k, to) : to;
+    if (k < batch->n) {
+        four(batch, list, slot, k, batch->n - k, row);
+    }
 }
 
 /* Data of other threads are in the caches of other cores. */
@@ -190,9 +162,10 @@ GB_ROW_INLINE void prefetch_particles(const struct gb_engine *engine,
     if (!prefetches(engine)) {
         return;
     }
-    const int32_t *other = list->other + slot;
+    const int32_t *other = list->other + slot, *row = list->row + slot;
     for (int k = 0; k < GB_BATCH && k < count; k++) {
         gb_simd_fetch(&engine->f32.particle[other[k]]);
+        gb_simd_fetch(engine->f32.rows.row[row[k]]);
     }
 }
 
@@ -202,7 +175,6 @@ GB_ROW_INLINE void sweep_near(struct gb_engine *engine, int64_t b, float cutoff2
     const struct gb_pair_list *near = &engine->list.near;
     const struct gb_batch_f32_kernel *kernel = &engine->f32.kernel;
     const int64_t stop = near->stop[b];
-    struct target to = target_of(engine, &engine->f32.near, WRENCH, b);
     struct gb_batch_f32 batch;
     batch.cutoff2 = cutoff2;
     batch.damp = 0.0F;
@@ -213,8 +185,7 @@ GB_ROW_INLINE void sweep_near(struct gb_engine *engine, int64_t b, float cutoff2
         gather(&engine->f32, near, &batch, slot, WITH_ROTATIONS);
         gather_diameters(engine, near, &batch, slot);
         kernel->advance(engine->model, &batch, &engine->contacts, slot);
-        to =
-            scatter(&batch, near->first + slot, near->other + slot, to, scatter_wrenches);
+        scatter(&batch, near, slot, engine->f32.rows.row, scatter_wrenches);
         kernel->tally(&batch, &engine->contacts, slot, tally);
     }
 }
@@ -223,7 +194,6 @@ GB_ROW_INLINE void sweep_far(struct gb_engine *engine, int64_t b, float cutoff2)
 {
     const struct gb_pair_list *far = &engine->list.far;
     const int64_t stop = far->stop[b];
-    struct target to = target_of(engine, &engine->f32.far, PULL, b);
     struct gb_batch_f32 batch;
     batch.cutoff2 = cutoff2;
     for (int64_t slot = far->start[gb_blocks_begin(engine->particles.count, b)];
@@ -233,7 +203,7 @@ GB_ROW_INLINE void sweep_far(struct gb_engine *engine, int64_t b, float cutoff2)
         gather(&engine->f32, far, &batch, slot, BRANCH_ONLY);
         gather_diameters(engine, far, &batch, slot);
         engine->f32.kernel.attract(engine->model, &batch);
-        to = scatter(&batch, far->first + slot, far->other + slot, to, scatter_pulls);
+        scatter(&batch, far, slot, engine->f32.rows.row, scatter_pulls);
     }
 }
 
@@ -241,8 +211,8 @@ GB_SIMD_LOOP void sweep_block_loop(struct gb_engine *engine, int64_t b, float cu
                                    struct gb_tally *tally)
 {
     const int64_t count = engine->particles.count, begin = gb_blocks_begin(count, b);
-    memset(engine->f32.wrench[begin], 0,
-           (size_t)(gb_blocks_end(count, b) - begin) * sizeof *engine->f32.wrench);
+    memset(engine->f32.rows.row[begin], 0,
+           (size_t)(gb_blocks_end(count, b) - begin) * sizeof *engine->f32.rows.row);
     sweep_near(engine, b, cutoff2, tally);
     sweep_far(engine, b, cutoff2);
 }
@@ -257,48 +227,27 @@ void gb_sweep_f32_block(struct gb_engine *engine, int64_t b, double cutoff2,
     sweep_block(engine, b, (float)cutoff2, tally);
 }
 
-/* Adds the rows of near pairs for particle j to sum. */
-GB_ROW_INLINE void collect_near(const struct gb_cross_rows *near, int64_t j,
+/* Adds the rows of near pairs that cross to particle j, all without a branch that the
+ * processor would mispredict: few particles have more than the first four. */
+GB_ROW_INLINE void collect_near(const struct gb_wrench_rows *rows, int64_t j,
                                 gb_row_pair *sum)
 {
-    const int32_t stop = near->in_start[j + 1];
-    for (int32_t in = near->in_start[j]; in < stop; in += AT_ONCE) {
-        const int32_t *row = near->in_row + in;
-        for (int l = 0; l < AT_ONCE; l++) {
-            gb_row_sum_if(sum, near->row + WRENCH * (int64_t)row[l], l, stop - in);
+    const int32_t stop = rows->start[2 * j + 1];
+    for (int32_t in = rows->start[2 * j]; in < stop; in += GB_WRENCH_ROWS_AT_ONCE) {
+        for (int l = 0; l < GB_WRENCH_ROWS_AT_ONCE; l++) {
+            gb_row_sum_if(sum, rows->row[in + l], l, stop - in);
         }
     }
 }
 
-/* Sum of the rows of far pairs for particle j. */
-GB_ROW_INLINE gb_row collect_far(const struct gb_cross_rows *far, int64_t j)
+/* Sum of the rows of far pairs. */
+GB_ROW_INLINE gb_row collect_far(const struct gb_wrench_rows *rows, int64_t j)
 {
     gb_row sum = {0.0F};
-    for (int32_t in = far->in_start[j]; in < far->in_start[j + 1]; in++) {
-        sum += gb_row_load(far->row + PULL * (int64_t)far->in_row[in]);
+    for (int32_t in = rows->start[2 * j + 1]; in < rows->start[2 * j + 2]; in++) {
+        sum += gb_row_load(rows->row[in]);
     }
     return sum;
-}
-
-/* Particles whose rows are prefetched together, while those before them collect. */
-enum { COLLECTED_NEXT = 32 };
-
-GB_ROW_INLINE void prefetch_rows(const struct gb_cross_rows *rows, int width,
-                                 int64_t begin, int64_t end)
-{
-    for (int32_t in = rows->in_start[begin]; in < rows->in_start[end]; in++) {
-        gb_simd_fetch(rows->row + width * (int64_t)rows->in_row[in]);
-    }
-}
-
-GB_ROW_INLINE void prefetch_next(const struct gb_engine *engine, int64_t begin,
-                                 int64_t end)
-{
-    const int64_t stop = begin + COLLECTED_NEXT < end ? begin + COLLECTED_NEXT : end;
-    if (prefetches(engine) && begin < end) {
-        prefetch_rows(&engine->f32.near, WRENCH, begin, stop);
-        prefetch_rows(&engine->f32.far, PULL, begin, stop);
-    }
 }
 
 GB_SIMD_LOOP void collect_loop(struct gb_engine *engine, int64_t begin, int64_t end,
@@ -308,17 +257,13 @@ GB_SIMD_LOOP void collect_loop(struct gb_engine *engine, int64_t begin, int64_t 
     const gb_row none = {0.0F};
     gb_row_pair squares = {0.0F};
     gb_row power = {0.0F};
-    prefetch_next(engine, begin, end);
     for (int64_t j = begin; j < end; j++) {
-        if ((j - begin) % COLLECTED_NEXT == 0) {
-            prefetch_next(engine, j + COLLECTED_NEXT, end);
-        }
         gb_row_pair sum;
-        memcpy(&sum, f32->wrench[j], sizeof sum);
-        collect_near(&f32->near, j, &sum);
-        const gb_row pull = collect_far(&f32->far, j);
+        memcpy(&sum, f32->rows.row[j], sizeof sum);
+        collect_near(&f32->rows, j, &sum);
+        const gb_row pull = collect_far(&f32->rows, j);
         sum += __builtin_shufflevector(pull, none, 0, 1, 2, 3, 4, 5, 6, 7);
-        memcpy(f32->wrench[j], &sum, sizeof sum);
+        memcpy(f32->rows.row[j], &sum, sizeof sum);
         squares += sum * sum;
         /* the fourth number of a velocity belongs to the next particle, that of a force
          * is 0 */
@@ -327,6 +272,7 @@ GB_SIMD_LOOP void collect_loop(struct gb_engine *engine, int64_t begin, int64_t 
         power += force * gb_row_load(f32->velocity + 3 * j) +
                  torque * gb_row_load(f32->spin + 3 * j);
     }
+    gb_wrench_rows_clear(&f32->rows, begin, end);
     *sums = (struct gb_force_sums){0};
     for (int c = 0; c < 3; c++) {
         sums->force2 += (double)squares[c];

@@ -158,13 +158,10 @@ static bool apply(struct gb_engine *engine, struct plan *plan, struct gb_error *
         plan->far.at[p] = gb_list_slots_find(list, &list->far, plan->far.pair[p]);
     }
     gb_list_slots_insert(list, &list->far, NULL, plan->far);
-    const bool near_crosses = gb_list_slots_cross(&plan->near, count);
-    const bool far_crosses = gb_list_slots_cross(&plan->far, count) ||
-                             gb_list_slots_cross(&plan->far_gone, count);
-    return (!near_crosses ||
-            gb_cross_rows_update(&engine->f32.near, &list->near, count, err)) &&
-           (!far_crosses ||
-            gb_cross_rows_update(&engine->f32.far, &list->far, count, err));
+    const bool crosses = gb_list_slots_cross(&plan->near, count) ||
+                         gb_list_slots_cross(&plan->far, count) ||
+                         gb_list_slots_cross(&plan->far_gone, count);
+    return !crosses || gb_wrench_rows_update(&engine->f32.rows, list, err);
 }
 
 enum gb_list_patch_outcome gb_list_patch_insert(struct gb_engine *engine,

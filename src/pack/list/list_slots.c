@@ -139,6 +139,7 @@ static void move_pairs(struct gb_pair_list *pairs, move_items *move, int64_t end
     move(pairs->first, sizeof *pairs->first, end, slots);
     move(pairs->other, sizeof *pairs->other, end, slots);
     move(pairs->image, sizeof *pairs->image, end, slots);
+    move(pairs->row, sizeof *pairs->row, end, slots);
 }
 
 /* Moves the starts of the particles of block b behind the slots, and its stop. */
@@ -184,6 +185,7 @@ void gb_list_slots_insert(struct gb_neighbour_list *list, struct gb_pair_list *p
             pairs->first[k] = own.pair[p]->first;
             pairs->other[k] = own.pair[p]->other;
             pairs->image[k] = (uint8_t)own.pair[p]->image;
+            pairs->row[k] = own.pair[p]->other; /* of a pair that crosses: set later */
         }
         shift_starts(pairs, list->count, b, &own, 1);
     }

@@ -43,10 +43,12 @@ static void free_pairs(struct gb_pair_list *pairs)
     gb_alloc_free(pairs->first);
     gb_alloc_free(pairs->other);
     gb_alloc_free(pairs->image);
+    gb_alloc_free(pairs->row);
     gb_alloc_free(pairs->in_slot);
     pairs->first = NULL;
     pairs->other = NULL;
     pairs->image = NULL;
+    pairs->row = NULL;
     pairs->in_slot = NULL;
     pairs->capacity = 0;
 }
@@ -103,11 +105,9 @@ bool gb_neighbour_list_reserve(struct gb_neighbour_list *list, struct gb_pair_li
     pairs->first = gb_alloc_array(room, sizeof *pairs->first, err);
     pairs->other = gb_alloc_array(room, sizeof *pairs->other, err);
     pairs->image = gb_alloc_array(room, sizeof *pairs->image, err);
-    if (transposed) {
-        pairs->in_slot = gb_alloc_array(room, sizeof *pairs->in_slot, err);
-    }
-    if (!pairs->first || !pairs->other || !pairs->image ||
-        (transposed && !pairs->in_slot)) {
+    int32_t **by_layout = transposed ? &pairs->in_slot : &pairs->row;
+    *by_layout = gb_alloc_array(room, sizeof **by_layout, err);
+    if (!pairs->first || !pairs->other || !pairs->image || !*by_layout) {
         free_pairs(pairs);
         return false;
     }
@@ -125,6 +125,7 @@ void gb_neighbour_list_free_slot(struct gb_pair_list *pairs, int64_t slot, int64
     pairs->first[slot] = (int32_t)i;
     pairs->other[slot] = (int32_t)i;
     pairs->image[slot] = IMAGE_AWAY;
+    pairs->row[slot] = (int32_t)i;
 }
 
 static void pairs_clear(struct gb_pair_list *pairs, int64_t count)

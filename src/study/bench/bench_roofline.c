@@ -34,17 +34,17 @@ static double flops_of(const struct gb_model *model, double near, double far)
            particle_flops;
 }
 
-/* A near pair: its record read and written, two indices.  A far pair: two indices.  A
+/* A near pair: its record read and written, three indices.  A far pair: three indices.  A
  * particle: its row read and written, its wrench written by the sweep and read by the
- * move, velocity and spin read and written, start of its pairs in both lists. */
+ * move, velocity and spin read and written, start of its pairs and of its rows in both lists. */
 static double bytes_of(const struct gb_world *world, double near, double far)
 {
     const double number = sizeof(float), index = sizeof(int32_t);
     const int planes = gb_world_contacts(world)->planes;
     const double sizes = gb_world_diameters(world) ? sizeof(double) : 0.0;
-    return near * (2.0 * planes * number + 2.0 * index) + far * 2.0 * index +
-           2.0 * sizeof(struct gb_f32_particle) + 2.0 * GB_F32_STATE_WRENCH * number +
-           2.0 * 6.0 * number + 2.0 * sizeof(int64_t) + sizes;
+    return near * (2.0 * planes * number + 3.0 * index) + far * 3.0 * index +
+           2.0 * sizeof(struct gb_f32_particle) + 2.0 * GB_WRENCH_ROWS_WIDTH * number +
+           2.0 * 6.0 * number + 2.0 * sizeof(int64_t) + 2.0 * index + sizes;
 }
 
 /* Independent chains, twice as many as units times latency would need; the start values
