@@ -81,8 +81,8 @@ void gb_f32_convert_forces_to_f64(struct gb_engine *engine)
     if (engine->state.forces == GB_ENGINE_FORCES_F64) {
         return;
     }
-    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN, widen_range,
-                       engine);
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN,
+                       widen_range, engine);
     gb_engine_state_convert_forces(&engine->state);
 }
 

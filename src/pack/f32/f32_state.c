@@ -17,9 +17,8 @@ bool gb_f32_state_init(struct gb_f32_state *f32, const struct gb_model *model,
     f32->bound = gb_alloc_array(groups, sizeof *f32->bound, err);
     f32->speed2 =
         gb_alloc_array((size_t)gb_blocks_count(model->count), sizeof *f32->speed2, err);
-    return f32->particle && f32->velocity && f32->spin && f32->built &&
-           f32->bound && f32->speed2 &&
-           gb_wrench_rows_init(&f32->rows, model->count, err);
+    return f32->particle && f32->velocity && f32->spin && f32->built && f32->bound &&
+           f32->speed2 && gb_wrench_rows_init(&f32->rows, model->count, err);
 }
 
 void gb_f32_state_finish(struct gb_f32_state *f32)
@@ -34,8 +33,8 @@ void gb_f32_state_finish(struct gb_f32_state *f32)
     *f32 = (struct gb_f32_state){0};
 }
 
-bool gb_f32_state_use_lists(struct gb_f32_state *f32,
-                            struct gb_neighbour_list *list, struct gb_error *err)
+bool gb_f32_state_use_lists(struct gb_f32_state *f32, struct gb_neighbour_list *list,
+                            struct gb_error *err)
 {
     for (int64_t i = 0; i < list->count; i++) {
         for (int c = 0; c < 3; c++) {

@@ -24,8 +24,8 @@ enum { GB_F32_STATE_PREFETCH = 16384 };
 /* Arrays of a world in single precision; owned by f32_state.c. */
 struct gb_f32_state {
     struct gb_batch_f32_kernel kernel;
-    struct gb_f32_particle *particle;     /* count */
-    struct gb_wrench_rows rows;           /* forces and torques on them */
+    struct gb_f32_particle *particle; /* count */
+    struct gb_wrench_rows rows;       /* forces and torques on them */
     float scale[3]; /* size of a fixed-point unit at the last evaluation, d */
     /* Velocities of integrate_f32.c: count x 3, and one number more each. */
     float *velocity, *spin;
@@ -42,7 +42,7 @@ void gb_f32_state_finish(struct gb_f32_state *f32);
 
 /* After a build of the lists: rows for their cross pairs, fixed-point positions.  On
  * failure nothing may be evaluated. */
-bool gb_f32_state_use_lists(struct gb_f32_state *f32,
-                            struct gb_neighbour_list *list, struct gb_error *err);
+bool gb_f32_state_use_lists(struct gb_f32_state *f32, struct gb_neighbour_list *list,
+                            struct gb_error *err);
 
 #endif

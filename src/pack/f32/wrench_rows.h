@@ -8,11 +8,7 @@
 
 /* Numbers of a row: force and torque, each with a fourth number that is 0, and where the
  * torque begins; rows that are read at once, the last ones without being used. */
-enum {
-    GB_WRENCH_ROWS_WIDTH = 8,
-    GB_WRENCH_ROWS_TORQUE = 4,
-    GB_WRENCH_ROWS_AT_ONCE = 4
-};
+enum { GB_WRENCH_ROWS_WIDTH = 8, GB_WRENCH_ROWS_TORQUE = 4, GB_WRENCH_ROWS_AT_ONCE = 4 };
 
 /* Forces and torques in single precision.  The first rows are those on the particles.  A
  * pair whose second particle lies in a later block than the first ("cross pair") adds to a

@@ -46,6 +46,11 @@ GB_ROW_INLINE void gb_row_words_beside(const int32_t *low, const int32_t *high,
     *both = __builtin_shufflevector(of_low, of_high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
+/* The low halves of two such pairs beside each other, and the high ones. */
+#define GB_ROW_PAIR_LOW(a, b) __builtin_shufflevector((a), (b), 0, 1, 2, 3, 8, 9, 10, 11)
+#define GB_ROW_PAIR_HIGH(a, b)                                                           \
+    __builtin_shufflevector((a), (b), 4, 5, 6, 7, 12, 13, 14, 15)
+
 /* The first three numbers of rows l (low halves) and l + 4 (high halves), as columns of
  * eight. */
 GB_ROW_INLINE void gb_row_pair_columns(const gb_row_pair row[4], gb_row_pair column[3])
@@ -130,22 +135,20 @@ GB_ROW_INLINE void gb_row_sum_if(gb_row_pair *sum, const float *row, int l, int 
     *sum += kept;
 }
 
-/* Three columns of four beside three others, as rows of eight; their fourth and last
+/* Three columns of eight as rows: l in the low halves, l + 4 in the high ones; their fourth
  * numbers are 0. */
-GB_ROW_INLINE void gb_row_rows(const gb_row low[3], const gb_row high[3],
-                               gb_row_pair row[4])
+GB_ROW_INLINE void gb_row_pair_rows(const float *x, const float *y, const float *z,
+                                    gb_row_pair row[4])
 {
     const gb_row_pair none = {0.0F};
-    const gb_row_pair x =
-        __builtin_shufflevector(low[0], high[0], 0, 1, 2, 3, 4, 5, 6, 7);
-    const gb_row_pair y =
-        __builtin_shufflevector(low[1], high[1], 0, 1, 2, 3, 4, 5, 6, 7);
-    const gb_row_pair z =
-        __builtin_shufflevector(low[2], high[2], 0, 1, 2, 3, 4, 5, 6, 7);
-    const gb_row_pair xy = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13);
-    const gb_row_pair yx = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15);
-    const gb_row_pair z0 = __builtin_shufflevector(z, none, 0, 8, 1, 9, 4, 12, 5, 13);
-    const gb_row_pair z1 = __builtin_shufflevector(z, none, 2, 10, 3, 11, 6, 14, 7, 15);
+    gb_row_pair xs, ys, zs;
+    memcpy(&xs, x, sizeof xs);
+    memcpy(&ys, y, sizeof ys);
+    memcpy(&zs, z, sizeof zs);
+    const gb_row_pair xy = __builtin_shufflevector(xs, ys, 0, 8, 1, 9, 4, 12, 5, 13);
+    const gb_row_pair yx = __builtin_shufflevector(xs, ys, 2, 10, 3, 11, 6, 14, 7, 15);
+    const gb_row_pair z0 = __builtin_shufflevector(zs, none, 0, 8, 1, 9, 4, 12, 5, 13);
+    const gb_row_pair z1 = __builtin_shufflevector(zs, none, 2, 10, 3, 11, 6, 14, 7, 15);
     row[0] = __builtin_shufflevector(xy, z0, 0, 1, 8, 9, 4, 5, 12, 13);
     row[1] = __builtin_shufflevector(xy, z0, 2, 3, 10, 11, 6, 7, 14, 15);
     row[2] = __builtin_shufflevector(yx, z1, 0, 1, 8, 9, 4, 5, 12, 13);

@@ -29,7 +29,8 @@ GB_ROW_INLINE void gather_eight(const struct gb_f32_state *f32,
     for (int l = 0; l < 4; l++) {
         const int low = l < count ? l : 0; /* behind the last pair: any */
         const int high = l + 4 < count ? l + 4 : 0;
-        const struct gb_f32_particle *i = &particle[first[low]], *j = &particle[other[low]];
+        const struct gb_f32_particle *i = &particle[first[low]];
+        const struct gb_f32_particle *j = &particle[other[low]];
         const struct gb_f32_particle *i4 = &particle[first[high]];
         const struct gb_f32_particle *j4 = &particle[other[high]];
         gb_row_word_pair pi, pj;
@@ -83,33 +84,31 @@ GB_ROW_INLINE void gather_diameters(const struct gb_engine *engine,
     }
 }
 
-/* Rows of force and torque for both particles of four pairs. */
-GB_ROW_INLINE void wrench_rows(const struct gb_batch_f32 *batch, int k,
-                               gb_row_pair on_first[4], gb_row_pair on_other[4])
-{
-    gb_row force[3], against[3], first[3], other[3];
-    for (int c = 0; c < 3; c++) {
-        force[c] = gb_row_load(batch->force[c] + k);
-        against[c] = -force[c];
-        first[c] = gb_row_load(batch->torque_i[c] + k);
-        other[c] = gb_row_load(batch->torque_j[c] + k);
-    }
-    gb_row_rows(force, first, on_first);
-    gb_row_rows(against, other, on_other);
-}
-
-/* Adds the results of `count` pairs (at most four) from index k of a batch on to their
+/* Adds the results of `count` pairs (at most eight) from index k of a batch on to their
  * particles, pair by pair: sums have the order of the list. */
 GB_ROW_INLINE void scatter_wrenches(const struct gb_batch_f32 *batch,
                                     const struct gb_pair_list *list, int64_t slot, int k,
                                     int count, float (*row)[GB_WRENCH_ROWS_WIDTH])
 {
     const int32_t *first = list->first + slot + k, *other = list->row + slot + k;
-    gb_row_pair on_first[4], on_other[4];
-    wrench_rows(batch, k, on_first, on_other);
-    for (int l = 0; l < count; l++) {
-        gb_row_pair_add(row[first[l]], &on_first[l]);
-        gb_row_pair_add(row[other[l]], &on_other[l]);
+    gb_row_pair force[4], ti[4], tj[4];
+    gb_row_pair_rows(batch->force[0] + k, batch->force[1] + k, batch->force[2] + k,
+                     force);
+    gb_row_pair_rows(batch->torque_i[0] + k, batch->torque_i[1] + k,
+                     batch->torque_i[2] + k, ti);
+    gb_row_pair_rows(batch->torque_j[0] + k, batch->torque_j[1] + k,
+                     batch->torque_j[2] + k, tj);
+    for (int l = 0; l < 4 && l < count; l++) {
+        const gb_row_pair on_first = GB_ROW_PAIR_LOW(force[l], ti[l]);
+        const gb_row_pair on_other = GB_ROW_PAIR_LOW(-force[l], tj[l]);
+        gb_row_pair_add(row[first[l]], &on_first);
+        gb_row_pair_add(row[other[l]], &on_other);
+    }
+    for (int l = 4; l < count; l++) {
+        const gb_row_pair on_first = GB_ROW_PAIR_HIGH(force[l - 4], ti[l - 4]);
+        const gb_row_pair on_other = GB_ROW_PAIR_HIGH(-force[l - 4], tj[l - 4]);
+        gb_row_pair_add(row[first[l]], &on_first);
+        gb_row_pair_add(row[other[l]], &on_other);
     }
 }
 
@@ -128,21 +127,23 @@ GB_ROW_INLINE void scatter_pulls(const struct gb_batch_f32 *batch,
     }
 }
 
-typedef void scatter_four(const struct gb_batch_f32 *batch,
+/* Adds the results of so many pairs from index k of a batch on. */
+typedef void scatter_some(const struct gb_batch_f32 *batch,
                           const struct gb_pair_list *list, int64_t slot, int k, int count,
                           float (*row)[GB_WRENCH_ROWS_WIDTH]);
 
-/* A whole batch, four pairs at a time. */
+/* A whole batch. */
 GB_ROW_INLINE void scatter(const struct gb_batch_f32 *batch,
                            const struct gb_pair_list *list, int64_t slot,
-                           float (*row)[GB_WRENCH_ROWS_WIDTH], scatter_four *four)
+                           float (*row)[GB_WRENCH_ROWS_WIDTH], int at_once,
+                           scatter_some *some)
 {
     int k = 0;
-    for (; k + 4 <= batch->n; k += 4) {
-        four(batch, list, slot, k, 4, row);
+    for (; k + at_once <= batch->n; k += at_once) {
+        some(batch, list, slot, k, at_once, row);
     }
     if (k < batch->n) {
-        four(batch, list, slot, k, batch->n - k, row);
+        some(batch, list, slot, k, batch->n - k, row);
     }
 }
 
@@ -185,7 +186,7 @@ GB_ROW_INLINE void sweep_near(struct gb_engine *engine, int64_t b, float cutoff2
         gather(&engine->f32, near, &batch, slot, WITH_ROTATIONS);
         gather_diameters(engine, near, &batch, slot);
         kernel->advance(engine->model, &batch, &engine->contacts, slot);
-        scatter(&batch, near, slot, engine->f32.rows.row, scatter_wrenches);
+        scatter(&batch, near, slot, engine->f32.rows.row, 8, scatter_wrenches);
         kernel->tally(&batch, &engine->contacts, slot, tally);
     }
 }
@@ -203,7 +204,7 @@ GB_ROW_INLINE void sweep_far(struct gb_engine *engine, int64_t b, float cutoff2)
         gather(&engine->f32, far, &batch, slot, BRANCH_ONLY);
         gather_diameters(engine, far, &batch, slot);
         engine->f32.kernel.attract(engine->model, &batch);
-        scatter(&batch, far, slot, engine->f32.rows.row, scatter_pulls);
+        scatter(&batch, far, slot, engine->f32.rows.row, 4, scatter_pulls);
     }
 }
 
