@@ -133,8 +133,9 @@ static void random_update(struct gb_world *world, GRand *random)
         .keep = 1.0, .step = 1.0, .inertia = 0.4, .displacement_max = 1.0};
     struct gb_error err = {0};
     for (int64_t k = 0; k < 3 * world->engine.particles.count; k++) {
-        world->engine.f32.velocity[k] = (float)g_rand_double_range(random, -5e-3, 5e-3);
-        world->engine.f32.spin[k] = (float)g_rand_double_range(random, -5e-3, 5e-3);
+        float *velocity = &world->engine.f32.velocity[k / 3][k % 3];
+        velocity[0] = (float)g_rand_double_range(random, -5e-3, 5e-3);
+        velocity[GB_WRENCH_ROWS_TORQUE] = (float)g_rand_double_range(random, -5e-3, 5e-3);
     }
     gb_integrate_f32_step(world, &by, NULL);
     if (!gb_world_evaluate_along(world, NULL, NULL, &err)) {
@@ -216,8 +217,8 @@ static void test_edited(void)
     double *position = gb_world_bodies(world).position;
     double *before = g_memdup2(position, 3 * (size_t)model.count * sizeof *before);
     position[3 * 17 + 1] += 0.02;
-    world->engine.f32.velocity[3 * 17 + 1] = 0.01F;
-    world->engine.f32.velocity[3 * 18 + 2] = -0.01F;
+    world->engine.f32.velocity[17][1] = 0.01F;
+    world->engine.f32.velocity[18][2] = -0.01F;
     gb_integrate_f32_step(world, &by, NULL);
     gb_world_synchronise(world);
     for (int64_t k = 0; k < 3 * model.count; k++) {

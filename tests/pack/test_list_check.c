@@ -89,7 +89,7 @@ static void check_velocity_updates(double step_max, int *outlived, int64_t *inse
         const int64_t before = gb_world_rebuilds(world);
         for (int64_t k = 0; k < 3 * pairs->count; k++) {
             const double length = k / 3 % 41 == 0 ? step_max : 1e-4;
-            world->engine.f32.velocity[k] =
+            world->engine.f32.velocity[k / 3][k % 3] =
                 (float)(length * g_rand_double_range(random, -0.5, 1.0));
         }
         gb_integrate_f32_step(world, &by, NULL);
@@ -133,7 +133,7 @@ static void check_moved_between_updates(enum moved_by moved_by)
             const double moved =
                 escapes ? g_rand_boolean(random) ? length : -length : 0.0;
             b.position[k] += moved;
-            world->engine.f32.velocity[k] = (float)moved;
+            world->engine.f32.velocity[k / 3][k % 3] = (float)moved;
         }
         if (moved_by == BEFORE_EVALUATION) {
             world_evaluate_any(world);

@@ -11,21 +11,19 @@ bool gb_f32_state_init(struct gb_f32_state *f32, const struct gb_model *model,
     const size_t groups = (n + GB_F32_STATE_GROUP - 1) / GB_F32_STATE_GROUP;
     f32->kernel = gb_batch_f32_pick(model, 0);
     f32->particle = gb_alloc_array(n, sizeof *f32->particle, err);
-    f32->velocity = gb_alloc_array(3 * n + 1, sizeof *f32->velocity, err);
-    f32->spin = gb_alloc_array(3 * n + 1, sizeof *f32->spin, err);
+    f32->velocity = gb_alloc_array(n, sizeof *f32->velocity, err);
     f32->built = gb_alloc_array(3 * n, sizeof *f32->built, err);
     f32->bound = gb_alloc_array(groups, sizeof *f32->bound, err);
     f32->speed2 =
         gb_alloc_array((size_t)gb_blocks_count(model->count), sizeof *f32->speed2, err);
-    return f32->particle && f32->velocity && f32->spin && f32->built && f32->bound &&
-           f32->speed2 && gb_wrench_rows_init(&f32->rows, model->count, err);
+    return f32->particle && f32->velocity && f32->built && f32->bound && f32->speed2 &&
+           gb_wrench_rows_init(&f32->rows, model->count, err);
 }
 
 void gb_f32_state_finish(struct gb_f32_state *f32)
 {
     gb_alloc_free(f32->particle);
     gb_alloc_free(f32->velocity);
-    gb_alloc_free(f32->spin);
     gb_alloc_free(f32->built);
     gb_alloc_free(f32->bound);
     gb_alloc_free(f32->speed2);

@@ -27,8 +27,8 @@ struct gb_f32_state {
     struct gb_f32_particle *particle; /* count */
     struct gb_wrench_rows rows;       /* forces and torques on them */
     float scale[3]; /* size of a fixed-point unit at the last evaluation, d */
-    /* Velocities of integrate_f32.c: count x 3, and one number more each. */
-    float *velocity, *spin;
+    /* count: velocities of integrate_f32.c, of translation and rotation as in `rows` */
+    float (*velocity)[GB_WRENCH_ROWS_WIDTH];
     uint32_t *built; /* count x 3: fixed-point positions at the list build */
     /* Of every group: upper bound of the displacements since the build, d.  From the margin
      * of the list check on it is the largest displacement itself. */

@@ -8,10 +8,8 @@
 #include "pack/list/engine_blocks.h"
 #include "pack/list/list_check.h"
 
-_Static_assert((int)TILE % (int)GB_F32_STATE_GROUP == 0 && (int)SUMMED % (int)TILE == 0 &&
-                   (int)GB_BLOCKS_SIZE % (int)SUMMED == 0 &&
-                   (int)NUMBERS % (int)LANES == 0,
-               "no group lies in two tiles, no tile in two sums or blocks");
+_Static_assert((int)SUMMED % (int)TILE == 0 && (int)GB_BLOCKS_SIZE % (int)SUMMED == 0,
+               "no tile lies in two sums or blocks");
 
 /* Particles from which on their data have left the caches since the last pass. */
 enum { PREFETCH = 131072 };
@@ -25,46 +23,49 @@ GB_SIMD_LOOP void prefetch_bytes(const void *from, size_t bytes)
 }
 
 /* Prefetches a tile while the one before is computed: hardware prefetchers do not follow
- * four short arrays at a time. */
+ * three short arrays at a time. */
 GB_SIMD_LOOP void prefetch_tile(const struct gb_f32_state *f32, int64_t begin)
 {
-    const int64_t at = 3 * begin;
     prefetch_bytes(f32->rows.row + begin, TILE * sizeof *f32->rows.row);
     prefetch_bytes(f32->particle + begin, TILE * sizeof *f32->particle);
-    prefetch_bytes(f32->velocity + at, NUMBERS * sizeof *f32->velocity);
-    prefetch_bytes(f32->spin + at, NUMBERS * sizeof *f32->spin);
+    prefetch_bytes(f32->velocity + begin, TILE * sizeof *f32->velocity);
 }
 
-GB_SIMD_LOOP void update_tile(struct gb_f32_state *f32, const struct pass *pass,
-                              int64_t begin, int particles, struct motion *motion)
+GB_ROW_INLINE void update_tile(struct gb_f32_state *f32, const struct pass *pass,
+                               int64_t begin, int particles, struct motion *motion)
 {
-    const int64_t at = 3 * begin;
-    const int n = 3 * particles;
-    float *v = f32->velocity + at, *w = f32->spin + at;
-    struct tile s;
-    s.rotation[n] = 0.0F;
-    load_forces(f32->rows.row + begin, pass->diameter ? pass->diameter + begin : NULL,
-                particles, &s);
-    update_velocity(pass, pass->kick, n, s.force, v, s.displacement, s.square);
-    const bool too_fast = find_too_fast(pass, particles, &s);
-    if (too_fast) {
-        slow_down(pass, particles, &s, v, s.displacement);
+    float(*v)[GB_WRENCH_ROWS_WIDTH] = f32->velocity + begin;
+    float *bound = &f32->bound[begin / GB_F32_STATE_GROUP], mass_inverse[TILE];
+    struct gb_f32_particle *particle = f32->particle + begin;
+    struct tile tile;
+    struct squares squares;
+    for (int i = 0; pass->diameter && i < particles; i++) { /* masses are the diameters */
+        mass_inverse[i] = 1.0F / (float)pass->diameter[begin + i];
     }
-    add_to_sum(&motion->speed2, s.square, n);
-    load_positions(f32->particle + begin, particles, &s);
-    move_positions(pass, n, s.displacement, s.position);
-    motion->displacement = fmaxf(motion->displacement,
-                                 update_bounds(pass, particles, f32->built + at, &s,
-                                               f32->bound + begin / GB_F32_STATE_GROUP));
-    update_velocity(pass, pass->kick_rotation, n, s.torque, w, s.rotation, s.square);
-    if (too_fast) {
-        slow_down(pass, particles, &s, w, s.rotation);
+    if (pass->diameter) {
+        update_velocities(pass, f32->rows.row + begin, mass_inverse, particles, v, &tile,
+                          &squares);
+    } else {
+        update_velocities(pass, f32->rows.row + begin, NULL, particles, v, &tile,
+                          &squares);
     }
-    add_to_sum(&motion->spin2, s.square, n);
+    if (bound_of(squares.velocity) > pass->speed2_max) {
+        slow_down(pass, particles, v, &tile, &squares);
+    }
+    for (int l = 0; l < SUMS; l++) {
+        motion->square[l] += squares.sum[l];
+    }
+    if (sqrtf(tile.square) < pass->most_moved) {
+        move_particles(pass, &tile, particles, particle);
+    } else {
+        move_far(pass, &tile, particles, particle);
+    }
+    *bound =
+        update_bound(pass, &tile, particles, particle, f32->built + 3 * begin, *bound);
+    motion->displacement = fmaxf(motion->displacement, *bound);
     if (pass->rotation_total) {
-        add_all(pass->rotation_total + at, s.rotation, n);
+        add_rotations(&tile, particles, pass->rotation_total + 3 * begin);
     }
-    store_particles(&s, particles, f32->particle + begin);
 }
 
 GB_SIMD_LOOP void update_block_loop(struct gb_engine *engine, const struct pass *pass,
@@ -84,8 +85,10 @@ GB_SIMD_LOOP void update_block_loop(struct gb_engine *engine, const struct pass 
             }
             update_tile(f32, pass, k, stop - k < TILE ? (int)(stop - k) : TILE, &motion);
         }
-        speed2 += sum_total(&motion.speed2);
-        speed2 += (double)pass->inertia * sum_total(&motion.spin2);
+        for (int c = 0; c < ROW; c++) { /* of fourth numbers: 0 */
+            speed2 += ((double)motion.square[0][c] + (double)motion.square[1][c]) *
+                      (double)(c < TURN ? 1.0F : pass->inertia);
+        }
         displacement = fmaxf(displacement, motion.displacement);
     }
     f32->speed2[b] = speed2;
@@ -126,25 +129,28 @@ bool gb_integrate_f32_applies(const struct gb_model *model)
 void gb_integrate_f32_reset(struct gb_world *world)
 {
     struct gb_f32_state *f32 = &world->engine.f32;
-    const size_t bytes =
-        3 * (size_t)world->engine.particles.count * sizeof *f32->velocity;
-    memset(f32->velocity, 0, bytes);
-    memset(f32->spin, 0, bytes);
+    memset(f32->velocity, 0,
+           (size_t)world->engine.particles.count * sizeof *f32->velocity);
 }
 
-/* The scales of the three axes, repeated for every particle of a tile. */
-static void fill_axes(struct pass *pass, const struct gb_cell *cell)
+/* What the numbers of a row are multiplied with. */
+static void fill_row(struct pass *pass, const struct gb_cell *cell,
+                     const struct gb_integrate_f32 *by)
 {
     pass->rounding = 0.0F;
     for (int c = 0; c < 3; c++) {
-        const float units = (float)gb_fixed_position_units(cell, c);
-        const float unit = (float)gb_fixed_position_unit(cell, c);
-        pass->rounding += unit;
-        for (int k = c; k < NUMBERS; k += 3) {
-            pass->units[k] = units;
-            pass->unit[k] = unit;
-        }
+        pass->unit[c] = (float)gb_fixed_position_unit(cell, c);
+        pass->rounding += pass->unit[c];
     }
+    double most = INFINITY;
+    for (int c = 0; c < TURN; c++) {
+        const double units = c < 3 ? gb_fixed_position_units(cell, c) : 0.0;
+        most = fmin(most, units > 0.0 ? 0x1p30 / units : most);
+        pass->units[c] = (float)units;
+        pass->kick[c] = (float)by->kick;
+        pass->kick[TURN + c] = (float)(by->kick / by->inertia);
+    }
+    pass->most_moved = (float)most;
 }
 
 double gb_integrate_f32_step(struct gb_world *world, const struct gb_integrate_f32 *by,
@@ -155,15 +161,13 @@ double gb_integrate_f32_step(struct gb_world *world, const struct gb_integrate_f
     struct pass pass = {.keep = (float)by->keep,
                         .back = (float)by->back,
                         .step = (float)by->step,
-                        .kick = (float)by->kick,
-                        .kick_rotation = (float)(by->kick / by->inertia),
                         .inertia = (float)by->inertia,
                         .margin = (float)gb_list_check_margin(engine),
                         .bounds_known = gb_engine_state_bounds_known(&engine->state),
                         .speed2_max = (float)(limit * limit),
                         .rotation_total = rotation_total,
                         .diameter = engine->particles.diameter};
-    fill_axes(&pass, &engine->particles.cell);
+    fill_row(&pass, &engine->particles.cell, by);
     if (gb_engine_state_fixed_stale(&engine->state)) {
         gb_f32_convert_particles(engine, 0, engine->particles.count);
     }

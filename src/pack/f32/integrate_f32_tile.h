@@ -1,9 +1,9 @@
 #ifndef GB_PACK_F32_INTEGRATE_F32_TILE_H
 #define GB_PACK_F32_INTEGRATE_F32_TILE_H
 
-/* The loops of integrate_f32.c over one tile of particles.  In memory a particle is three
- * consecutive numbers of an array, which vectors of any width can load; the sweep reads
- * rows of four.  A tile at a time is converted in the cache. */
+/* The loops of integrate_f32.c over one tile of particles.  Forces, velocities and
+ * displacements are rows of eight numbers, of translation and of rotation; vectors of any
+ * width load some rows or halves of one. */
 
 #include <math.h>
 #include <string.h>
@@ -12,15 +12,14 @@
 #include "pack/kernel/register_rows.h"
 #include "pack/kernel/simd.h"
 
-/* Particles of a tile, few enough for the first cache, and their numbers; particles whose
- * squares are summed as floats; lanes of these sums, whatever the vector width. */
-enum { TILE = 64, NUMBERS = 3 * TILE, SUMMED = 256, LANES = 16 };
-enum { GROUPS = TILE / GB_F32_STATE_GROUP };
+/* Numbers of a particle; particles of a tile, few enough for the first cache, and their
+ * numbers; particles whose squares are summed as floats, in so many rows. */
+enum { ROW = GB_WRENCH_ROWS_WIDTH, TURN = GB_WRENCH_ROWS_TORQUE };
+enum { TILE = GB_F32_STATE_GROUP, SUMMED = 256, SUMS = 2 };
 
 /* Constants of one pass over all blocks. */
 struct pass {
     float keep, back, step;
-    float kick, kick_rotation;
     float inertia;
     float margin; /* d; a bound from here on is replaced by the displacement itself */
     bool bounds_known; /* from the updates before */
@@ -28,224 +27,201 @@ struct pass {
     float rounding;    /* d; upper bound of the rounding to fixed point */
     float *rotation_total;
     const double *diameter; /* of all particles; NULL: all are 1 */
-    /* for every number of a tile, by its axis: fixed-point units per d, and d per unit */
-    float units[NUMBERS], unit[NUMBERS];
+    float unit[3];          /* d per fixed-point unit */
+    float most_moved;       /* d; farther ones are not fixed-point differences */
+    gb_row units;           /* fixed-point units per d, and 0 */
+    gb_row_pair kick;       /* of velocities per force */
 };
 
-/* One tile; rows of four are read and written at its last particle. */
 struct tile {
-    float force[NUMBERS + 1], torque[NUMBERS + 1];
-    float displacement[NUMBERS], rotation[NUMBERS + 1];
-    float square[NUMBERS];
-    int32_t position[NUMBERS + 1];
-    float kept[TILE]; /* factors of velocities that are too large; set where one is */
-};
-
-struct sum {
-    float lane[LANES];
-    double rest; /* of the last numbers, fewer than a vector has lanes */
+    gb_row_pair displacement[TILE];
+    float square; /* bound of the squared displacements that are finite */
 };
 
 /* Sums over some tiles. */
 struct motion {
-    struct sum speed2, spin2;
-    float displacement; /* largest bound, d */
+    gb_row_pair square[SUMS]; /* of velocities: even particles, odd particles */
+    float displacement;       /* largest bound, d */
 };
 
-/* Forces over the masses, which are the diameters (NULL: all 1). */
-GB_SIMD_LOOP void load_forces(float (*wrench)[GB_WRENCH_ROWS_WIDTH],
-                              const double *diameter, int particles,
-                              struct tile *restrict tile)
+/* Of a tile: squares of velocities, summed, and the largest ones of velocities and of
+ * displacements, number by number of a row; even particles, odd particles. */
+struct squares {
+    gb_row_pair sum[SUMS], velocity[SUMS], displacement[SUMS];
+};
+
+/* Upper bound of the squared lengths of the vectors that rows begin with: from the largest
+ * square along each axis. */
+GB_ROW_INLINE float bound_of(const gb_row_pair most[SUMS])
 {
-    float inverse[TILE];
-    for (int i = 0; diameter && i < particles; i++) {
-        inverse[i] = 1.0F / (float)diameter[i];
+    float sum = 0.0F;
+    for (int c = 0; c < 3; c++) {
+        sum += most[0][c] > most[1][c] ? most[0][c] : most[1][c];
     }
-    for (int i = 0; diameter && i < particles; i++) {
-        gb_row_store(tile->force + 3 * i, gb_row_load(wrench[i]) * inverse[i]);
-        gb_row_store(tile->torque + 3 * i, gb_row_load(wrench[i] + 4) * inverse[i]);
-    }
-    for (int i = 0; !diameter && i < particles; i++) {
-        gb_row_store(tile->force + 3 * i, gb_row_load(wrench[i]));
-        gb_row_store(tile->torque + 3 * i, gb_row_load(wrench[i] + 4));
+    return sum;
+}
+
+GB_ROW_INLINE void clear_squares(struct squares *squares)
+{
+    const gb_row_pair none = {0.0F};
+    for (int l = 0; l < SUMS; l++) {
+        squares->sum[l] = squares->velocity[l] = squares->displacement[l] = none;
     }
 }
 
-GB_SIMD_LOOP void load_positions(const struct gb_f32_particle *particle, int particles,
-                                 struct tile *restrict tile)
+/* What an update multiplies with, in registers. */
+struct factors {
+    float keep, back, step;
+    gb_row_pair kick;
+};
+
+/* Velocities of a particle from the forces on it; their displacement. */
+GB_ROW_INLINE void update_velocity(const struct factors *by, const float *force,
+                                   float mass_inverse, float *v,
+                                   gb_row_pair *displacement, int odd,
+                                   struct squares *squares)
 {
-    for (int i = 0; i < particles; i++) {
-        memcpy(tile->position + 3 * i, particle[i].position, 4 * sizeof *tile->position);
-    }
+    gb_row_pair before, after;
+    memcpy(&before, v, sizeof before);
+    memcpy(&after, force, sizeof after);
+    after = by->keep * before + by->kick * (after * mass_inverse);
+    memcpy(v, &after, sizeof after);
+    const gb_row_pair moved = by->step * after - by->back * before;
+    const gb_row_pair square = after * after, square_moved = moved * moved;
+    *displacement = moved;
+    squares->sum[odd] += square;
+    gb_row_pair_raise(&squares->velocity[odd], &square);
+    gb_row_pair_raise(&squares->displacement[odd], &square_moved);
 }
 
-/* The fourth number of a row is not used. */
-GB_SIMD_LOOP void store_particles(const struct tile *restrict tile, int particles,
-                                  struct gb_f32_particle *restrict particle)
+/* Velocities of a tile; mass_inverse: of each particle where masses are unequal, else
+ * NULL. */
+GB_ROW_INLINE void update_velocities(const struct pass *pass,
+                                     float (*force)[GB_WRENCH_ROWS_WIDTH],
+                                     const float *mass_inverse, int particles,
+                                     float (*v)[GB_WRENCH_ROWS_WIDTH], struct tile *tile,
+                                     struct squares *squares)
 {
-    for (int i = 0; i < particles; i++) {
-        memcpy(particle[i].position, tile->position + 3 * i, sizeof particle[i].position);
-        memcpy(particle[i].rotation, tile->rotation + 3 * i, sizeof particle[i].rotation);
-    }
-}
-
-/* Velocities from forces, and their displacements. */
-GB_SIMD_LOOP void update_velocity(const struct pass *pass, float kick, int n,
-                                  const float *restrict force, float *restrict v,
-                                  float *restrict displacement, float *restrict square)
-{
-    const float keep = pass->keep, back = pass->back, step = pass->step;
-    for (int k = 0; k < n; k++) {
-        const float before = v[k], after = keep * before + kick * force[k];
-        v[k] = after;
-        displacement[k] = step * after - back * before;
-        square[k] = after * after;
-    }
-}
-
-GB_SIMD_LOOP void add_to_sum(struct sum *restrict sum, const float *restrict number,
-                             int n)
-{
-    int k = 0;
-    for (; k + LANES <= n; k += LANES) {
-        for (int l = 0; l < LANES; l++) {
-            sum->lane[l] += number[k + l];
+    const struct factors by = {pass->keep, pass->back, pass->step, pass->kick};
+    int i = 0;
+    clear_squares(squares);
+    for (; i + SUMS <= particles; i += SUMS) {
+        for (int l = 0; l < SUMS; l++) {
+            update_velocity(&by, force[i + l], mass_inverse ? mass_inverse[i + l] : 1.0F,
+                            v[i + l], &tile->displacement[i + l], l, squares);
         }
     }
-    for (; k < n; k++) {
-        sum->rest += (double)number[k];
+    if (i < particles) {
+        update_velocity(&by, force[i], mass_inverse ? mass_inverse[i] : 1.0F, v[i],
+                        &tile->displacement[i], 0, squares);
     }
+    tile->square = bound_of(squares->displacement);
 }
 
-static inline double sum_total(const struct sum *sum)
+/* Slows particles down whose velocity is above the limit, and their rotation with them;
+ * sums and bounds follow. */
+GB_ROW_INLINE void slow_down(const struct pass *pass, int particles,
+                             float (*v)[GB_WRENCH_ROWS_WIDTH], struct tile *tile,
+                             struct squares *squares)
 {
-    double all = sum->rest;
-    for (int l = 0; l < LANES; l++) {
-        all += (double)sum->lane[l];
-    }
-    return all;
-}
-
-/* Largest sum of the three numbers of a particle. */
-GB_SIMD_LOOP float largest_of(const float *restrict number, int particles)
-{
-    float most = 0.0F;
-#pragma omp simd reduction(max : most)
+    clear_squares(squares);
     for (int i = 0; i < particles; i++) {
-        const float sum = number[3 * i] + number[3 * i + 1] + number[3 * i + 2];
-        most = sum > most ? sum : most;
+        gb_row_pair velocity;
+        memcpy(&velocity, v[i], sizeof velocity);
+        gb_row_pair square = velocity * velocity;
+        const float speed2 = square[0] + square[1] + square[2];
+        if (speed2 > pass->speed2_max) {
+            const float kept = sqrtf(pass->speed2_max / speed2);
+            tile->displacement[i] -= pass->step * (1.0F - kept) * velocity;
+            velocity *= kept;
+            square *= kept * kept;
+            memcpy(v[i], &velocity, sizeof velocity);
+        }
+        const gb_row_pair square_by = tile->displacement[i] * tile->displacement[i];
+        squares->sum[i % SUMS] += square;
+        gb_row_pair_raise(&squares->displacement[i % SUMS], &square_by);
     }
-    return most;
+    tile->square = bound_of(squares->displacement);
 }
 
-/* Square root of the largest squared displacement of every group. */
-GB_SIMD_LOOP void largest_of_groups(const float *restrict square, int particles,
-                                    float *restrict largest)
+/* Moves particles by displacements in fixed-point units, rounded to the nearest; their
+ * increments of rotation. */
+GB_ROW_INLINE void move_particles(const struct pass *pass, const struct tile *tile,
+                                  int particles, struct gb_f32_particle *particle)
 {
-    for (int i = 0; i < particles; i += GB_F32_STATE_GROUP) {
-        const int left = particles - i;
-        const int n = left < GB_F32_STATE_GROUP ? left : GB_F32_STATE_GROUP;
-        *largest++ = sqrtf(largest_of(square + 3 * i, n));
+    const gb_row_int sign = {INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+    const gb_row half = {0.5F, 0.5F, 0.5F, 0.5F}, units = pass->units;
+    for (int i = 0; i < particles; i++) {
+        const gb_row_pair by = tile->displacement[i];
+        const gb_row exact = __builtin_shufflevector(by, by, 0, 1, 2, 3) * units;
+        const gb_row up = (gb_row)(((gb_row_int)exact & sign) | (gb_row_int)half);
+        const gb_row_int moved = __builtin_convertvector(exact + up, gb_row_int);
+        gb_row_word at;
+        memcpy(&at, particle[i].position, sizeof at);
+        at += (gb_row_word)moved;
+        memcpy(particle[i].position, &at, sizeof at);
+        gb_row_store(particle[i].rotation, __builtin_shufflevector(by, by, 4, 5, 6, 7));
     }
 }
 
-GB_SIMD_LOOP void square_all(const float *restrict number, int n, float *restrict square)
-{
-    for (int k = 0; k < n; k++) {
-        square[k] = number[k] * number[k];
-    }
-}
-
-/* Moves fixed-point positions, rounding to the nearest unit.  The result for a
- * displacement that is not finite is undefined; the sum of squared velocities reports
- * it. */
-GB_SIMD_LOOP void move_positions(const struct pass *pass, int n,
-                                 const float *restrict displacement,
-                                 int32_t *restrict position)
+/* The same for displacements of any length.  The result for one that is not finite is
+ * undefined; the sum of squared velocities reports it. */
+GB_ROW_INLINE void move_far(const struct pass *pass, const struct tile *tile,
+                            int particles, struct gb_f32_particle *particle)
 {
     const float most = 0x1p30F;
-    for (int k = 0; k < n; k++) {
-        const float exact = displacement[k] * pass->units[k];
-        const float bounded = exact < most ? exact > -most ? exact : -most : most;
-        const uint32_t units =
-            (uint32_t)(int32_t)(bounded + (bounded < 0.0F ? -0.5F : 0.5F));
-        position[k] = (int32_t)((uint32_t)position[k] + units);
-    }
-}
-
-/* Squared components of the displacements since the list build. */
-GB_SIMD_LOOP void displacements_since_build(const struct pass *pass, int n,
-                                            const int32_t *restrict position,
-                                            const uint32_t *restrict built,
-                                            float *restrict square)
-{
-    for (int k = 0; k < n; k++) {
-        const uint32_t wide = (uint32_t)position[k] - built[k];
-        const float moved = (float)(int32_t)wide * pass->unit[k];
-        square[k] = moved * moved;
-    }
-}
-
-/* Bounds of the groups of a tile; returns the largest.  A bound grows by the largest
- * displacement of its group and an allowance for rounding.  Only when one reaches
- * the margin of the list check are the true displacements computed. */
-GB_SIMD_LOOP float update_bounds(const struct pass *pass, int particles,
-                                 const uint32_t *built, struct tile *tile, float *bound)
-{
-    const float slack = 1.0F + 0x1p-16F;
-    const int count = (particles + GB_F32_STATE_GROUP - 1) / GB_F32_STATE_GROUP;
-    float step[GROUPS], most = 0.0F;
-    bool inside = pass->bounds_known;
-    if (inside) {
-        square_all(tile->displacement, 3 * particles, tile->square);
-        largest_of_groups(tile->square, particles, step);
-        for (int g = 0; g < count; g++) {
-            bound[g] = (bound[g] + step[g] + pass->rounding) * slack;
-            inside = inside && bound[g] < pass->margin;
+    for (int i = 0; i < particles; i++) {
+        for (int c = 0; c < 3; c++) {
+            const float exact = tile->displacement[i][c] * pass->units[c];
+            const float bounded = exact < most ? exact > -most ? exact : -most : most;
+            const uint32_t moved =
+                (uint32_t)(int32_t)(bounded + (bounded < 0.0F ? -0.5F : 0.5F));
+            particle[i].position[c] =
+                (int32_t)((uint32_t)particle[i].position[c] + moved);
+            particle[i].rotation[c] = tile->displacement[i][TURN + c];
         }
     }
-    if (!inside) {
-        displacements_since_build(pass, 3 * particles, tile->position, built,
-                                  tile->square);
-        largest_of_groups(tile->square, particles, bound);
-    }
-    for (int g = 0; g < count; g++) {
-        most = fmaxf(most, bound[g]);
-    }
-    return most;
 }
 
-GB_SIMD_LOOP void add_all(float *restrict sum, const float *restrict number, int n)
+/* Largest displacement since the list build. */
+GB_ROW_INLINE float displacement_since_build(const struct pass *pass, int particles,
+                                             const struct gb_f32_particle *particle,
+                                             const uint32_t *built)
 {
-    for (int k = 0; k < n; k++) {
-        sum[k] += number[k];
-    }
-}
-
-/* Factors for velocities above the limit; returns true if there are any. */
-GB_SIMD_LOOP bool find_too_fast(const struct pass *pass, int particles, struct tile *tile)
-{
-    if (!(largest_of(tile->square, particles) > pass->speed2_max)) {
-        return false;
-    }
+    float most = 0.0F;
     for (int i = 0; i < particles; i++) {
-        const float *square = tile->square + 3 * i;
-        const float speed2 = square[0] + square[1] + square[2];
-        tile->kept[i] =
-            speed2 > pass->speed2_max ? sqrtf(pass->speed2_max / speed2) : 1.0F;
+        float square = 0.0F;
+        for (int c = 0; c < 3; c++) {
+            const uint32_t wide = (uint32_t)particle[i].position[c] - built[3 * i + c];
+            const float moved = (float)(int32_t)wide * pass->unit[c];
+            square += moved * moved;
+        }
+        most = square > most ? square : most;
     }
-    return true;
+    return sqrtf(most);
 }
 
-/* Scales velocities, their squares and displacements by these factors. */
-GB_SIMD_LOOP void slow_down(const struct pass *pass, int particles, struct tile *tile,
-                            float *v, float *displacement)
+/* Bound of the displacements of a tile since the list build: grows by that of this update
+ * and an allowance for rounding.  Only where it reaches the margin of the list check is
+ * the true displacement computed. */
+GB_ROW_INLINE float update_bound(const struct pass *pass, const struct tile *tile,
+                                 int particles, const struct gb_f32_particle *particle,
+                                 const uint32_t *built, float bound)
 {
-    for (int k = 0; k < 3 * particles; k++) {
-        const float kept = tile->kept[k / 3];
-        displacement[k] -= pass->step * (1.0F - kept) * v[k];
-        v[k] *= kept;
-        tile->square[k] *= kept * kept;
+    const float slack = 1.0F + 0x1p-16F;
+    const float grown = (bound + sqrtf(tile->square) + pass->rounding) * slack;
+    return pass->bounds_known && grown < pass->margin
+               ? grown
+               : displacement_since_build(pass, particles, particle, built);
+}
+
+/* Adds up the increments of rotation, three numbers a particle. */
+GB_ROW_INLINE void add_rotations(const struct tile *tile, int particles, float *total)
+{
+    for (int i = 0; i < particles; i++) {
+        for (int c = 0; c < 3; c++) {
+            total[3 * i + c] += tile->displacement[i][TURN + c];
+        }
     }
 }
 

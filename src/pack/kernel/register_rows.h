@@ -46,6 +46,14 @@ GB_ROW_INLINE void gb_row_words_beside(const int32_t *low, const int32_t *high,
     *both = __builtin_shufflevector(of_low, of_high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
+/* Raises `most` to x, number by number. */
+GB_ROW_INLINE void gb_row_pair_raise(gb_row_pair *most, const gb_row_pair *x)
+{
+    const gb_row_int_pair above = *x > *most;
+    *most =
+        (gb_row_pair)(((gb_row_int_pair)*x & above) | ((gb_row_int_pair)*most & ~above));
+}
+
 /* The low halves of two such pairs beside each other, and the high ones. */
 #define GB_ROW_PAIR_LOW(a, b) __builtin_shufflevector((a), (b), 0, 1, 2, 3, 8, 9, 10, 11)
 #define GB_ROW_PAIR_HIGH(a, b)                                                           \

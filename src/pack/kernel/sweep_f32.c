@@ -256,8 +256,7 @@ GB_SIMD_LOOP void collect_loop(struct gb_engine *engine, int64_t begin, int64_t 
 {
     const struct gb_f32_state *f32 = &engine->f32;
     const gb_row none = {0.0F};
-    gb_row_pair squares = {0.0F};
-    gb_row power = {0.0F};
+    gb_row_pair squares = {0.0F}, power = {0.0F};
     for (int64_t j = begin; j < end; j++) {
         gb_row_pair sum;
         memcpy(&sum, f32->rows.row[j], sizeof sum);
@@ -266,19 +265,16 @@ GB_SIMD_LOOP void collect_loop(struct gb_engine *engine, int64_t begin, int64_t 
         sum += __builtin_shufflevector(pull, none, 0, 1, 2, 3, 4, 5, 6, 7);
         memcpy(f32->rows.row[j], &sum, sizeof sum);
         squares += sum * sum;
-        /* the fourth number of a velocity belongs to the next particle, that of a force
-         * is 0 */
-        const gb_row force = __builtin_shufflevector(sum, sum, 0, 1, 2, 3);
-        const gb_row torque = __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
-        power += force * gb_row_load(f32->velocity + 3 * j) +
-                 torque * gb_row_load(f32->spin + 3 * j);
+        gb_row_pair velocity;
+        memcpy(&velocity, f32->velocity[j], sizeof velocity);
+        power += sum * velocity;
     }
     gb_wrench_rows_clear(&f32->rows, begin, end);
     *sums = (struct gb_force_sums){0};
     for (int c = 0; c < 3; c++) {
         sums->force2 += (double)squares[c];
         sums->torque2 += (double)squares[TORQUE + c];
-        sums->power += (double)power[c];
+        sums->power += (double)power[c] + (double)power[TORQUE + c];
     }
 }
 GB_SIMD_WIDTHS(collect,
