@@ -87,7 +87,7 @@ GB_SIMD_LOOP void update_block_loop(struct gb_engine *engine, const struct pass 
         }
         for (int c = 0; c < ROW; c++) { /* of fourth numbers: 0 */
             speed2 += ((double)motion.square[0][c] + (double)motion.square[1][c]) *
-                      (double)(c < TURN ? 1.0F : pass->inertia);
+                      (double)(c < TORQUE ? 1.0F : pass->inertia);
         }
         displacement = fmaxf(displacement, motion.displacement);
     }
@@ -143,12 +143,12 @@ static void fill_row(struct pass *pass, const struct gb_cell *cell,
         pass->rounding += pass->unit[c];
     }
     double most = INFINITY;
-    for (int c = 0; c < TURN; c++) {
+    for (int c = 0; c < TORQUE; c++) {
         const double units = c < 3 ? gb_fixed_position_units(cell, c) : 0.0;
         most = fmin(most, units > 0.0 ? 0x1p30 / units : most);
         pass->units[c] = (float)units;
         pass->kick[c] = (float)by->kick;
-        pass->kick[TURN + c] = (float)(by->kick / by->inertia);
+        pass->kick[TORQUE + c] = (float)(by->kick / by->inertia);
     }
     pass->most_moved = (float)most;
 }

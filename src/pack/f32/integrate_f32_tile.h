@@ -14,7 +14,7 @@
 
 /* Numbers of a particle; particles of a tile, few enough for the first cache, and their
  * numbers; particles whose squares are summed as floats, in so many rows. */
-enum { ROW = GB_WRENCH_ROWS_WIDTH, TURN = GB_WRENCH_ROWS_TORQUE };
+enum { ROW = GB_WRENCH_ROWS_WIDTH, TORQUE = GB_WRENCH_ROWS_TORQUE };
 enum { TILE = GB_F32_STATE_GROUP, SUMMED = 256, SUMS = 2 };
 
 /* Constants of one pass over all blocks. */
@@ -178,7 +178,7 @@ GB_ROW_INLINE void move_far(const struct pass *pass, const struct tile *tile,
                 (uint32_t)(int32_t)(bounded + (bounded < 0.0F ? -0.5F : 0.5F));
             particle[i].position[c] =
                 (int32_t)((uint32_t)particle[i].position[c] + moved);
-            particle[i].rotation[c] = tile->displacement[i][TURN + c];
+            particle[i].rotation[c] = tile->displacement[i][TORQUE + c];
         }
     }
 }
@@ -220,7 +220,7 @@ GB_ROW_INLINE void add_rotations(const struct tile *tile, int particles, float *
 {
     for (int i = 0; i < particles; i++) {
         for (int c = 0; c < 3; c++) {
-            total[3 * i + c] += tile->displacement[i][TURN + c];
+            total[3 * i + c] += tile->displacement[i][TORQUE + c];
         }
     }
 }

@@ -23,9 +23,9 @@ void gb_wrench_rows_finish(struct gb_wrench_rows *rows)
     *rows = (struct gb_wrench_rows){0};
 }
 
-/* Place of particle j in `start`, for near or far pairs. */
-static int64_t place(const struct gb_neighbour_list *list,
-                     const struct gb_pair_list *pairs, int64_t j)
+/* Entry of particle j in `start`, for near or far pairs. */
+static int64_t entry_of(const struct gb_neighbour_list *list,
+                        const struct gb_pair_list *pairs, int64_t j)
 {
     return 2 * j + (pairs == &list->far);
 }
@@ -38,7 +38,7 @@ static void count_pairs(const struct gb_neighbour_list *list,
         const int64_t begin = gb_blocks_begin(list->count, b);
         const int64_t end = gb_blocks_end(list->count, b);
         for (int64_t k = pairs->start[begin]; k < pairs->start[end]; k++) {
-            count[place(list, pairs, pairs->other[k])] += pairs->other[k] >= end;
+            count[entry_of(list, pairs, pairs->other[k])] += pairs->other[k] >= end;
         }
     }
 }
@@ -67,7 +67,7 @@ static void assign_rows(const struct gb_neighbour_list *list, struct gb_pair_lis
         const int64_t end = gb_blocks_end(list->count, b);
         for (int64_t k = pairs->start[end] - 1; k >= pairs->start[begin]; k--) {
             const int32_t j = pairs->other[k];
-            pairs->row[k] = j < end ? j : --start[place(list, pairs, j)];
+            pairs->row[k] = j < end ? j : --start[entry_of(list, pairs, j)];
         }
     }
 }
