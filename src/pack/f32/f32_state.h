@@ -29,7 +29,6 @@ struct gb_f32_state {
     float scale[3]; /* size of a fixed-point unit at the last evaluation, d */
     /* count: velocities of integrate_f32.c, of translation and rotation as in `rows` */
     float (*velocity)[GB_WRENCH_ROWS_WIDTH];
-    uint32_t *built; /* count x 3: fixed-point positions at the list build */
     /* Of every group: upper bound of the displacements since the build, d.  From the margin
      * of the list check on it is the largest displacement itself. */
     float *bound;
@@ -39,10 +38,5 @@ struct gb_f32_state {
 bool gb_f32_state_init(struct gb_f32_state *f32, const struct gb_model *model,
                        struct gb_error *err);
 void gb_f32_state_finish(struct gb_f32_state *f32);
-
-/* After a build of the lists: rows for their cross pairs, fixed-point positions.  On
- * failure nothing may be evaluated. */
-bool gb_f32_state_use_lists(struct gb_f32_state *f32, struct gb_neighbour_list *list,
-                            struct gb_error *err);
 
 #endif

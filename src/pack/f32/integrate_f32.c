@@ -31,9 +31,11 @@ GB_SIMD_LOOP void prefetch_tile(const struct gb_f32_state *f32, int64_t begin)
     prefetch_bytes(f32->velocity + begin, TILE * sizeof *f32->velocity);
 }
 
-GB_ROW_INLINE void update_tile(struct gb_f32_state *f32, const struct pass *pass,
+GB_ROW_INLINE void update_tile(struct gb_engine *engine, const struct pass *pass,
                                int64_t begin, int particles, struct motion *motion)
 {
+    struct gb_f32_state *f32 = &engine->f32;
+    const double *built = engine->list.built_position + 3 * begin;
     float(*v)[GB_WRENCH_ROWS_WIDTH] = f32->velocity + begin;
     float *bound = &f32->bound[begin / GB_F32_STATE_GROUP], mass_inverse[TILE];
     struct gb_f32_particle *particle = f32->particle + begin;
@@ -60,8 +62,7 @@ GB_ROW_INLINE void update_tile(struct gb_f32_state *f32, const struct pass *pass
     } else {
         move_far(pass, &tile, particles, particle);
     }
-    *bound =
-        update_bound(pass, &tile, particles, particle, f32->built + 3 * begin, *bound);
+    *bound = update_bound(pass, &tile, particles, particle, built, *bound);
     motion->displacement = fmaxf(motion->displacement, *bound);
     if (pass->rotation_total) {
         add_rotations(&tile, particles, pass->rotation_total + 3 * begin);
@@ -83,7 +84,8 @@ GB_SIMD_LOOP void update_block_loop(struct gb_engine *engine, const struct pass 
             if (count >= PREFETCH && k + TILE < end) {
                 prefetch_tile(f32, k + TILE);
             }
-            update_tile(f32, pass, k, stop - k < TILE ? (int)(stop - k) : TILE, &motion);
+            update_tile(engine, pass, k, stop - k < TILE ? (int)(stop - k) : TILE,
+                        &motion);
         }
         for (int c = 0; c < ROW; c++) { /* of fourth numbers: 0 */
             speed2 += ((double)motion.square[0][c] + (double)motion.square[1][c]) *
@@ -135,11 +137,12 @@ void gb_integrate_f32_reset(struct gb_world *world)
 
 /* What the numbers of a row are multiplied with. */
 static void fill_row(struct pass *pass, const struct gb_cell *cell,
-                     const struct gb_integrate_f32 *by)
+                     const struct gb_cell *built, const struct gb_integrate_f32 *by)
 {
     pass->rounding = 0.0F;
     for (int c = 0; c < 3; c++) {
         pass->unit[c] = (float)gb_fixed_position_unit(cell, c);
+        pass->built_units[c] = gb_fixed_position_units(built, c);
         pass->rounding += pass->unit[c];
     }
     double most = INFINITY;
@@ -167,7 +170,7 @@ double gb_integrate_f32_step(struct gb_world *world, const struct gb_integrate_f
                         .speed2_max = (float)(limit * limit),
                         .rotation_total = rotation_total,
                         .diameter = engine->particles.diameter};
-    fill_row(&pass, &engine->particles.cell, by);
+    fill_row(&pass, &engine->particles.cell, &engine->list.built, by);
     if (gb_engine_state_fixed_stale(&engine->state)) {
         gb_f32_convert_particles(engine, 0, engine->particles.count);
     }

@@ -28,6 +28,7 @@ struct pass {
     float *rotation_total;
     const double *diameter; /* of all particles; NULL: all are 1 */
     float unit[3];          /* d per fixed-point unit */
+    double built_units[3];  /* fixed-point units per d at the list build */
     float most_moved;       /* d; farther ones are not fixed-point differences */
     gb_row units;           /* fixed-point units per d, and 0 */
     gb_row_pair kick;       /* of velocities per force */
@@ -183,17 +184,20 @@ GB_ROW_INLINE void move_far(const struct pass *pass, const struct tile *tile,
     }
 }
 
-/* Largest displacement since the list build. */
+/* Largest displacement since the list build, where the particles were at `built`, d. */
 GB_ROW_INLINE float displacement_since_build(const struct pass *pass, int particles,
                                              const struct gb_f32_particle *particle,
-                                             const uint32_t *built)
+                                             const double *built)
 {
     float most = 0.0F;
     for (int i = 0; i < particles; i++) {
         float square = 0.0F;
         for (int c = 0; c < 3; c++) {
-            const uint32_t wide = (uint32_t)particle[i].position[c] - built[3 * i + c];
-            const float moved = (float)(int32_t)wide * pass->unit[c];
+            const int32_t from =
+                gb_fixed_position_of(built[3 * i + c], pass->built_units[c]);
+            const float moved = (float)gb_fixed_position_difference(
+                                    (uint32_t)particle[i].position[c], (uint32_t)from) *
+                                pass->unit[c];
             square += moved * moved;
         }
         most = square > most ? square : most;
@@ -206,7 +210,7 @@ GB_ROW_INLINE float displacement_since_build(const struct pass *pass, int partic
  * the true displacement computed. */
 GB_ROW_INLINE float update_bound(const struct pass *pass, const struct tile *tile,
                                  int particles, const struct gb_f32_particle *particle,
-                                 const uint32_t *built, float bound)
+                                 const double *built, float bound)
 {
     const float slack = 1.0F + 0x1p-16F;
     const float grown = (bound + sqrtf(tile->square) + pass->rounding) * slack;
