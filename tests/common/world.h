@@ -84,9 +84,44 @@ static inline bool world_holds_pair(const struct gb_world *world,
     return false;
 }
 
+/* In single precision, of one list: a pair of one block adds to its second particle; a pair
+ * of two blocks to a row of its own among those of its second particle, in the order of the
+ * list. */
+static inline void world_check_rows(const struct gb_world *world,
+                                    const struct gb_pair_list *pairs)
+{
+    const struct gb_wrench_rows *rows = &world->engine.f32.rows;
+    const int64_t count = world->engine.list.count;
+    const int of = pairs == &world->engine.list.far;
+    int32_t *next = g_new(int32_t, count);
+    for (int64_t j = 0; j < count; j++) {
+        next[j] = rows->start[2 * j + of];
+    }
+    for (int64_t b = 0; b < gb_blocks_count(count); b++) {
+        const int64_t begin = gb_blocks_begin(count, b), end = gb_blocks_end(count, b);
+        for (int64_t k = pairs->start[begin]; k < pairs->start[end]; k++) {
+            const int32_t j = pairs->other[k];
+            g_assert_cmpint(pairs->row[k], ==, j < end ? j : next[j]++);
+        }
+    }
+    for (int64_t j = 0; j < count; j++) {
+        g_assert_cmpint(next[j], <=, rows->start[2 * j + of + 1]);
+    }
+    for (int64_t k = count; k < rows->room; k++) {
+        for (int c = 0; c < GB_WRENCH_ROWS_WIDTH; c++) {
+            g_assert_true(rows->row[k][c] == 0.0F);
+        }
+    }
+    g_free(next);
+}
+
 /* Every pair within the cutoff is in a list, every pair in contact in the near list. */
 static inline void world_check_lists(const struct gb_world *world)
 {
+    if (gb_engine_is_f32(&world->engine)) {
+        world_check_rows(world, &world->engine.list.near);
+        world_check_rows(world, &world->engine.list.far);
+    }
     const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     const double gap = gb_world_model(world)->numerics.cutoff - 1.0;
     for (int64_t j = 0; j < pairs->count; j++) {
