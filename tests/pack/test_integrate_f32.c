@@ -108,11 +108,17 @@ static int check_update(struct gb_world *world, const struct gb_integrate_f32 *b
     return slow;
 }
 
-static void check_scene(const char *sizes)
+/* A scene in single precision; sizes: a key of it, or NULL. */
+static struct gb_model model_of(const char *sizes)
 {
     const struct gb_params params =
         scene_params("particles.count=1100", "numerics.precision=single", sizes, NULL);
-    const struct gb_model model = scene_model(&params);
+    return scene_model(&params);
+}
+
+static void check_scene(const char *sizes)
+{
+    const struct gb_model model = model_of(sizes);
     GRand *random = g_rand_new_with_seed(23);
     struct gb_integrate_f32 by = {
         .keep = 0.9, .kick = 0.6, .back = 0.3, .step = 1.1, .inertia = 0.4};
@@ -147,9 +153,7 @@ static void test_unequal(void)
 /* Displacements of up to a fourth of an edge along each axis, farther than it in all. */
 static void test_far(void)
 {
-    const struct gb_params params =
-        scene_params("particles.count=1100", "numerics.precision=single", NULL);
-    const struct gb_model model = scene_model(&params);
+    const struct gb_model model = model_of(NULL);
     struct gb_world *world = scene_world(&model);
     GRand *random = g_rand_new_with_seed(29);
     const struct gb_integrate_f32 by = {
@@ -166,9 +170,7 @@ static void test_far(void)
 /* A number that is not finite is reported, wherever it is. */
 static void test_not_finite(void)
 {
-    const struct gb_params params =
-        scene_params("particles.count=1100", "numerics.precision=single", NULL);
-    const struct gb_model model = scene_model(&params);
+    const struct gb_model model = model_of(NULL);
     const struct gb_integrate_f32 by = {
         .keep = 1.0, .step = 1.0, .inertia = 0.4, .displacement_max = 0.1};
     static const int64_t at[] = {0, 31, 32, 600, PARTICLES - 1};
