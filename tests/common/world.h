@@ -93,7 +93,7 @@ static inline void world_check_rows(const struct gb_world *world,
     const struct gb_wrench_rows *rows = &world->engine.f32.rows;
     const int64_t count = world->engine.list.count;
     const int of = pairs == &world->engine.list.far;
-    int32_t *next = g_new(int32_t, count);
+    int32_t *next = g_new(int32_t, (gsize)count);
     for (int64_t j = 0; j < count; j++) {
         next[j] = rows->start[2 * j + of];
     }
