@@ -86,7 +86,7 @@ static int check_update(struct gb_world *world, const struct gb_integrate_f32 *b
                 gb_fixed_position_unit(cell, c) *
                 gb_fixed_position_difference((uint32_t)f32->particle[i].position[c],
                                              (uint32_t)before[i].position[c]);
-            const double turned = expected[i].displacement[1][c];
+            const double rotated = expected[i].displacement[1][c];
             g_assert_cmpfloat(fabs(apart - *by_c), <,
                               0.51 * gb_fixed_position_unit(cell, c) + rounding);
             g_assert_cmpfloat(
@@ -94,9 +94,9 @@ static int check_update(struct gb_world *world, const struct gb_integrate_f32 *b
             g_assert_cmpfloat(fabs((double)f32->velocity[i][GB_WRENCH_ROWS_TORQUE + c] -
                                    expected[i].velocity[1][c]),
                               <, 1e-6);
-            g_assert_cmpfloat(fabs((double)f32->particle[i].rotation[c] - turned), <,
+            g_assert_cmpfloat(fabs((double)f32->particle[i].rotation[c] - rotated), <,
                               1e-6);
-            g_assert_cmpfloat(fabs((double)total[3 * i + c] - 0.25 - turned), <, 1e-6);
+            g_assert_cmpfloat(fabs((double)total[3 * i + c] - 0.25 - rotated), <, 1e-6);
             moved2 += apart * apart;
         }
         g_assert_cmpfloat((double)f32->bound[i / GB_F32_STATE_GROUP] + 1e-8, >=,
