@@ -1,10 +1,9 @@
 #ifndef GB_PACK_KERNEL_REGISTER_ROWS_H
 #define GB_PACK_KERNEL_REGISTER_ROWS_H
 
-/* Rows of numbers in a register, and the transposition of four of them into columns and
- * back: in memory a particle is a row, and the laws work on columns of many contacts. */
+/* Rows of numbers in a register, and the transposition of four or eight of them into columns
+ * and back: in memory a particle is a row, and the laws work on columns of many contacts. */
 
-#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -92,22 +91,10 @@ GB_ROW_INLINE void gb_row_of_columns(const float *x, const float *y, const float
     row[3] = __builtin_shufflevector(yx, z1, 2, 3, 6, 7);
 }
 
-/* Adds a row to `to`; with a condition, replaces `to` where `there` is false, without a
- * branch that the processor would mispredict. */
+/* Adds a row to `to`. */
 GB_ROW_INLINE void gb_row_add(float *to, gb_row row)
 {
     gb_row_store(to, gb_row_load(to) + row);
-}
-
-GB_ROW_INLINE void gb_row_add_if(float *to, bool there, gb_row row)
-{
-    const int32_t all = -(int32_t)there;
-    gb_row_int bits;
-    gb_row kept;
-    memcpy(&bits, to, sizeof bits);
-    bits &= (gb_row_int){all, all, all, all};
-    memcpy(&kept, &bits, sizeof kept);
-    gb_row_store(to, kept + row);
 }
 
 /* The same for rows of eight; by address, as some compilers refuse them by value. */
@@ -119,19 +106,8 @@ GB_ROW_INLINE void gb_row_pair_add(float *to, const gb_row_pair *row)
     memcpy(to, &sum, sizeof sum);
 }
 
-GB_ROW_INLINE void gb_row_pair_add_if(float *to, bool there, const gb_row_pair *row)
-{
-    const int32_t all = -(int32_t)there;
-    gb_row_int_pair bits;
-    gb_row_pair sum;
-    memcpy(&bits, to, sizeof bits);
-    bits &= (gb_row_int_pair){all, all, all, all, all, all, all, all};
-    memcpy(&sum, &bits, sizeof sum);
-    sum += *row;
-    memcpy(to, &sum, sizeof sum);
-}
-
-/* Adds row number l to a sum if l < n, again without a branch. */
+/* Adds row number l to a sum if l < n, without a branch that the processor would
+ * mispredict. */
 GB_ROW_INLINE void gb_row_sum_if(gb_row_pair *sum, const float *row, int l, int n)
 {
     const gb_row_int_pair ns = {n, n, n, n, n, n, n, n}, ls = {l, l, l, l, l, l, l, l};

@@ -2,6 +2,7 @@
  * many contacts. */
 #include "pack/kernel/sweep_f32.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/team/team.h"
