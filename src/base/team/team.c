@@ -31,6 +31,7 @@ struct member {
      * the last in the lower half.  A successful exchange of the word makes the item the
      * exchanger's, of the work that the word belongs to by then. */
     _Alignas(CACHE_LINE) _Atomic uint64_t share;
+    atomic_uint first; /* item of that share */
     _Alignas(CACHE_LINE) struct bell bell;
     pthread_t thread;
     struct gb_team *team;
@@ -125,6 +126,16 @@ static bool all_finished(const struct member *member, unsigned seen)
     return atomic_load(&member->team->left) == 0;
 }
 
+static int64_t next_of(uint64_t word)
+{
+    return (int64_t)(word >> 32);
+}
+
+static int64_t end_of(uint64_t word)
+{
+    return (int64_t)(word & UINT32_MAX);
+}
+
 static uint64_t share_word(int64_t next, int64_t end)
 {
     return (uint64_t)next << 32 | (uint64_t)end;
@@ -135,8 +146,8 @@ static bool take(struct member *from, int64_t *item)
 {
     uint64_t word = atomic_load(&from->share);
     do {
-        *item = (int64_t)(word >> 32);
-        if (*item >= (int64_t)(word & UINT32_MAX)) {
+        *item = next_of(word);
+        if (*item >= end_of(word)) {
             return false;
         }
     } while (
@@ -144,19 +155,52 @@ static bool take(struct member *from, int64_t *item)
     return true;
 }
 
+/* The last item of a share that its thread works on. */
+static bool is_last(const struct member *from, uint64_t word)
+{
+    return next_of(word) + 1 == end_of(word) &&
+           next_of(word) > (int64_t)atomic_load(&from->first);
+}
+
+/* Leaves the last item of another's share to the thread that works on it, which has its data
+ * in the caches from the work before: until that thread takes it, or has not for so long. */
+static void leave_last(const struct member *from, double patience_s)
+{
+    const uint64_t word = atomic_load(&from->share);
+    if (is_last(from, word)) {
+        const double began_s = gb_clock_s();
+        while (atomic_load(&from->share) == word && gb_clock_s() - began_s < patience_s) {
+            relax_cpu();
+        }
+    }
+}
+
+/* No other work begins before these items count as finished. */
+static void count_finished(struct gb_team *team, int number, int64_t items)
+{
+    if (items > 0 && atomic_fetch_sub(&team->left, items) == items && number > 0) {
+        bell_ring(&team->member[0].bell);
+    }
+}
+
 /* Items of the own share, then of the others'. */
 static void work_off(struct gb_team *team, int number)
 {
-    for (int k = 0; k < team->size; k++) {
+    const double began_s = gb_clock_s();
+    int64_t done = 0, item;
+    for (; take(&team->member[number], &item); done++) {
+        team->work(team->data, item);
+    }
+    count_finished(team, number, done);
+    const double item_s = done > 0 ? (gb_clock_s() - began_s) / (double)done : 0.0;
+    for (int k = 1; k < team->size; k++) {
         struct member *from = &team->member[(number + k) % team->size];
-        int64_t done = 0;
-        for (int64_t item; take(from, &item); done++) {
+        done = 0;
+        for (leave_last(from, item_s); take(from, &item); leave_last(from, item_s)) {
             team->work(team->data, item);
+            done++;
         }
-        /* No other work begins before these items count as finished. */
-        if (done > 0 && atomic_fetch_sub(&team->left, done) == done && number > 0) {
-            bell_ring(&team->member[0].bell);
-        }
+        count_finished(team, number, done);
     }
 }
 
@@ -192,6 +236,7 @@ bool gb_team_create(struct gb_team **out, int threads, struct gb_error *err)
     team->size = threads;
     for (int m = 0; m < threads; m++) {
         atomic_init(&member[m].share, 0);
+        atomic_init(&member[m].first, 0);
         bell_init(&member[m].bell);
         member[m].team = team;
         member[m].number = m;
@@ -291,9 +336,11 @@ void gb_team_run_costs(struct gb_team *team, int64_t items, const int64_t *cost,
     atomic_store_explicit(&team->left, items, memory_order_relaxed);
     atomic_store_explicit(&team->active, active, memory_order_relaxed);
     for (int m = 0; m < active; m++) {
-        atomic_store_explicit(&team->member[m].share,
-                              share_word(share_begin(items, cost, m, active),
-                                         share_begin(items, cost, m + 1, active)),
+        const int64_t begin = share_begin(items, cost, m, active);
+        const int64_t end = share_begin(items, cost, m + 1, active);
+        atomic_store_explicit(&team->member[m].first, (unsigned)begin,
+                              memory_order_relaxed);
+        atomic_store_explicit(&team->member[m].share, share_word(begin, end),
                               memory_order_release);
     }
     atomic_fetch_add(&team->generation, 1);

@@ -70,6 +70,7 @@ void gb_engine_state_evaluate(struct gb_engine_state *state)
     };
     assert(state->lists != GB_ENGINE_NO_LISTS);
     change(state, next);
+    state->evaluation++;
     state->forces =
         state->real == GB_REAL_F32 ? GB_ENGINE_FORCES_F32 : GB_ENGINE_FORCES_F64;
 }

@@ -2,6 +2,7 @@
 #define GB_PACK_CELL_ENGINE_STATE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "pack/cell/real.h"
 
@@ -47,6 +48,8 @@ struct gb_engine_state {
     enum gb_engine_motion motion;
     enum gb_engine_lists lists;
     enum gb_engine_forces forces;
+    int64_t evaluation; /* number of the last one: what was computed from it tells by this
+                         * whether it still holds */
 };
 
 /* `position` lags behind the fixed-point positions. */
@@ -66,6 +69,13 @@ static inline bool gb_engine_state_moved(const struct gb_engine_state *state)
 {
     return state->motion == GB_ENGINE_MOVED ||
            state->motion == GB_ENGINE_MOVED_SYNCHRONISED;
+}
+
+/* Forces belong to the present positions. */
+static inline bool gb_engine_state_evaluated(const struct gb_engine_state *state)
+{
+    return state->motion == GB_ENGINE_EVALUATED || state->motion == GB_ENGINE_RELAXING ||
+           state->motion == GB_ENGINE_RELAXING_SYNCHRONISED;
 }
 
 /* Only velocity updates have moved particles since the bounds were last computed. */

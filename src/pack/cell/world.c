@@ -64,7 +64,9 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     }
     world->coordination =
         gb_alloc_array((size_t)model->count, sizeof *world->coordination, err);
-    if (!world->coordination || !init_engine(&world->engine, model, position, err)) {
+    world->virial = gb_alloc_array(1, sizeof *world->virial, err);
+    if (!world->coordination || !world->virial ||
+        !init_engine(&world->engine, model, position, err)) {
         gb_world_destroy(world);
         return false;
     }
@@ -80,6 +82,7 @@ void gb_world_destroy(struct gb_world *world)
     finish_engine(&world->engine);
     gb_contact_carry_finish(&world->carry);
     gb_alloc_free(world->coordination);
+    gb_alloc_free(world->virial);
     gb_alloc_free(world);
 }
 

@@ -6,10 +6,17 @@
 #include "pack/cell/world.h"
 #include "pack/list/contact_carry.h"
 
+/* The sum of an evaluation; 0: of none. */
+struct gb_virial {
+    int64_t evaluation;
+    double sum[3][3];
+};
+
 /* The inside of gb_world, for the top files of the periodic engine only: world*.c,
  * integrate_f32.c, nonaffine.c, pair_forces.c and virial.c (docs/engine.md). */
 struct gb_world {
     struct gb_engine engine;
+    struct gb_virial *virial;      /* the last one, by virial.c */
     struct gb_contact_carry carry; /* across list rebuilds */
     int32_t *coordination;         /* scratch of gb_world_coordination, one a particle */
     int64_t evaluations, rebuilds;

@@ -13,7 +13,7 @@
 /* Partial sums over at most PARTS parts of the particles, added in their order: the same
  * bits for any number of threads.  Groups of parts have at least GROUP_LEAST particles,
  * enough to fill some batches; in single precision a part is a group. */
-enum { PARTS = 64, GROUP_LEAST = 1024 };
+enum { PARTS = 64, GROUP_LEAST = 256 };
 
 static int groups_of(const struct gb_engine *engine)
 {
@@ -211,8 +211,8 @@ static void sum_item(void *data, int64_t g)
               (int)gb_share(parts, (int)g + 1, groups), summing->part, fabric);
 }
 
-void gb_virial_sum_fabric(const struct gb_world *world, double sum[3][3],
-                          struct gb_fabric_sums *fabric)
+static void sum_all(const struct gb_world *world, double sum[3][3],
+                    struct gb_fabric_sums *fabric)
 {
     double part[PARTS][3][3] = {0};
     struct gb_fabric_sums group[PARTS];
@@ -228,4 +228,17 @@ void gb_virial_sum_fabric(const struct gb_world *world, double sum[3][3],
             gb_vec_add(sum[a], 1.0, part[p][a]);
         }
     }
+}
+
+void gb_virial_sum_fabric(const struct gb_world *world, double sum[3][3],
+                          struct gb_fabric_sums *fabric)
+{
+    const struct gb_engine_state *state = &world->engine.state;
+    struct gb_virial *last = world->virial;
+    if (fabric || last->evaluation != state->evaluation ||
+        !gb_engine_state_evaluated(state)) {
+        sum_all(world, last->sum, fabric);
+        last->evaluation = gb_engine_state_evaluated(state) ? state->evaluation : 0;
+    }
+    memcpy(sum, last->sum, sizeof last->sum);
 }
