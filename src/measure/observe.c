@@ -131,18 +131,19 @@ static void count_part(void *data, int64_t p)
 {
     const struct counting *counting = data;
     const struct gb_pair_list *pairs = &gb_world_pairs(counting->world)->near;
-    const struct gb_contacts *contacts = gb_world_contacts(counting->world);
+    const struct gb_contacts contacts = *gb_world_contacts(counting->world);
     const int64_t count = gb_world_model(counting->world)->count;
-    struct part_counts *part = &counting->part[p];
-    *part = (struct part_counts){0};
-    for (int64_t i = count * p / PARTS; i < count * (p + 1) / PARTS; i++) {
-        part->rattlers += counting->degree[i] < 2;
-        for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            const double deepest = gb_contacts_deepest(contacts, k);
-            part->touching += deepest >= 0.0;
-            part->bridged += deepest > 0.0;
-        }
+    const int64_t begin = count * p / PARTS, end = count * (p + 1) / PARTS;
+    struct part_counts part = {0};
+    for (int64_t i = begin; i < end; i++) {
+        part.rattlers += counting->degree[i] < 2;
     }
+    for (int64_t k = pairs->start[begin]; k < pairs->start[end]; k++) {
+        const double deepest = gb_contacts_deepest(&contacts, k);
+        part.touching += deepest >= 0.0;
+        part.bridged += deepest > 0.0;
+    }
+    counting->part[p] = part;
 }
 
 void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts *counts,

@@ -1,9 +1,12 @@
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
 #include "common/world.h"
 #include "law/law_hertz.h"
 #include "measure/observe.h"
+#include "pack/kernel/fabric_sums.h"
+#include "pack/kernel/virial.h"
 
 static void sum_forces(struct gb_world *world, double force[3], double *largest)
 {
@@ -278,6 +281,54 @@ static void test_lattice(const void *data)
     gb_world_destroy(world);
 }
 
+/* The sum of an evaluation is computed once: every later one is of the state that it is asked of. */
+static void check_virial(const struct gb_world *world, double sum[3][3])
+{
+    struct gb_fabric_sums fabric = {.weight = {0}};
+    double again[3][3];
+    gb_virial_sum(world, sum);
+    gb_virial_sum_fabric(world, again, &fabric); /* computes it anew */
+    g_assert_true(memcmp(sum, again, sizeof again) == 0);
+}
+
+static void test_virial(const void *data)
+{
+    const struct precision *precision = data;
+    const struct gb_params params = scene_params(precision->setting, NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_world_copy *copy = NULL;
+    struct gb_error err = {0};
+    double pressed[3][3], moved[3][3], strained[3][3], restored[3][3];
+    static const double factor[3] = {1.0, 1.0, 0.999};
+    scene_press(world, 5, 30, 2.0);
+    g_assert_true(gb_world_copy_save(world, &copy, &err));
+    scene_evaluate(world);
+    check_virial(world, pressed);
+
+    gb_world_bodies(world).position[3 * 17] += 1e-3;
+    scene_evaluate(world);
+    check_virial(world, moved);
+    g_assert_false(memcmp(moved, pressed, sizeof moved) == 0);
+
+    gb_world_strain(world, factor);
+    scene_evaluate(world);
+    check_virial(world, strained);
+    g_assert_false(memcmp(strained, moved, sizeof moved) == 0);
+
+    const struct gb_bodies b = gb_world_bodies(world);
+    check_virial(world, restored);
+    b.position[3 * 17] += 1e-3; /* no evaluation between */
+    check_virial(world, restored);
+
+    g_assert_true(gb_world_copy_restore(world, copy, &err));
+    scene_evaluate(world);
+    check_virial(world, restored);
+    g_assert_false(memcmp(restored, strained, sizeof moved) == 0);
+    gb_world_copy_destroy(copy);
+    gb_world_destroy(world);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -289,6 +340,8 @@ int main(int argc, char **argv)
     g_test_add_data_func("/world/dry-single", &precisions[1], test_dry);
     g_test_add_data_func("/world/forces", &precisions[0], test_forces);
     g_test_add_data_func("/world/forces-single", &precisions[1], test_forces);
+    g_test_add_data_func("/world/virial", &precisions[0], test_virial);
+    g_test_add_data_func("/world/virial-single", &precisions[1], test_virial);
     g_test_add_data_func("/world/lattice", &precisions[0], test_lattice);
     g_test_add_data_func("/world/lattice-single", &precisions[1], test_lattice);
     return g_test_run();

@@ -8,7 +8,8 @@
 
 /* Threads that share the items of one piece of work after another.  Every thread takes
  * the items of its own share in order, then those that others have not begun: a thread
- * without a core delays nothing but the item that it holds.  Which thread computes an
+ * without a core delays little more than the item that it holds.  The last item of a share is
+ * left to its thread for as long as an item lasts.  Which thread computes an
  * item is undefined, so an item's result must not depend on it.
  *
  * A team of one thread is NULL: every function accepts it, and the caller does the work.

@@ -235,13 +235,16 @@ const struct gb_contacts *gb_world_contacts(const struct gb_world *world)
 const int32_t *gb_world_coordination(const struct gb_world *world)
 {
     const struct gb_engine *engine = &world->engine;
-    const struct gb_pair_list *near = &engine->list.near;
+    const struct gb_pair_list near = engine->list.near;
+    const struct gb_contacts contacts =
+        engine->contacts; /* no store below changes these */
+    const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
     int32_t *coordination = world->coordination;
     memset(coordination, 0, (size_t)engine->particles.count * sizeof *coordination);
-    for (int64_t k = 0; k < gb_neighbour_list_slots(&engine->list, near); k++) {
-        const int touches = gb_contacts_touch(&engine->contacts, k);
-        coordination[near->first[k]] += touches;
-        coordination[near->other[k]] += touches;
+    for (int64_t k = 0; k < slots; k++) {
+        const int touches = gb_contacts_touch(&contacts, k);
+        coordination[near.first[k]] += touches;
+        coordination[near.other[k]] += touches;
     }
     return coordination;
 }

@@ -11,7 +11,7 @@
 #include "pack/kernel/sweep_f32.h"
 
 /* Partial sums over at most PARTS parts of the particles, added in their order: the same
- * bits for any number of threads.  Groups of parts have at least GROUP_LEAST particles,
+ * bits for any number of threads.  Groups of parts have about GROUP_LEAST particles and more,
  * enough to fill some batches; in single precision a part is a group. */
 enum { PARTS = 64, GROUP_LEAST = 256 };
 
