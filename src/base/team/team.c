@@ -85,23 +85,33 @@ static void bell_ring(struct bell *bell)
     }
 }
 
-typedef bool condition(const struct member *member, unsigned seen);
+typedef bool condition(const struct member *member, uint64_t seen);
 
-/* Until the condition holds: it looks, then sleeps. */
-static void bell_await(struct member *member, condition *holds, unsigned seen)
+/* Looks whether the condition holds, for so long at most; true if it does. */
+static bool look_until(const struct member *member, condition *holds, uint64_t seen,
+                       double limit_s)
 {
-    struct bell *bell = &member->bell;
     const double began_s = gb_clock_s();
-    for (double waited_s = 0.0; waited_s < yield_s; waited_s = gb_clock_s() - began_s) {
+    for (double waited_s = 0.0; waited_s < limit_s; waited_s = gb_clock_s() - began_s) {
         for (int look = 0; look < LOOKS_PER_CLOCK; look++) {
             if (holds(member, seen)) {
-                return;
+                return true;
             }
             relax_cpu();
         }
         if (waited_s > spin_s) {
             sched_yield();
         }
+    }
+    return false;
+}
+
+/* Until the condition holds: it looks, then sleeps. */
+static void bell_await(struct member *member, condition *holds, uint64_t seen)
+{
+    struct bell *bell = &member->bell;
+    if (look_until(member, holds, seen, yield_s)) {
+        return;
     }
     pthread_mutex_lock(&bell->lock);
     atomic_store(&bell->asleep, true);
@@ -112,7 +122,7 @@ static void bell_await(struct member *member, condition *holds, unsigned seen)
     pthread_mutex_unlock(&bell->lock);
 }
 
-static bool has_new_work(const struct member *member, unsigned seen)
+static bool has_new_work(const struct member *member, uint64_t seen)
 {
     struct gb_team *team = member->team;
     return (atomic_load(&team->generation) != seen &&
@@ -120,7 +130,7 @@ static bool has_new_work(const struct member *member, unsigned seen)
            atomic_load(&team->over);
 }
 
-static bool all_finished(const struct member *member, unsigned seen)
+static bool all_finished(const struct member *member, uint64_t seen)
 {
     (void)seen;
     return atomic_load(&member->team->left) == 0;
@@ -162,16 +172,18 @@ static bool is_last(const struct member *from, uint64_t word)
            next_of(word) > (int64_t)atomic_load(&from->first);
 }
 
+static bool share_differs(const struct member *member, uint64_t seen)
+{
+    return atomic_load(&member->share) != seen;
+}
+
 /* Leaves the last item of another's share to the thread that works on it, which has its data
  * in the caches from the work before: until that thread takes it, or has not for so long. */
 static void leave_last(const struct member *from, double patience_s)
 {
     const uint64_t word = atomic_load(&from->share);
     if (is_last(from, word)) {
-        const double began_s = gb_clock_s();
-        while (atomic_load(&from->share) == word && gb_clock_s() - began_s < patience_s) {
-            relax_cpu();
-        }
+        (void)look_until(from, share_differs, word, patience_s);
     }
 }
 
