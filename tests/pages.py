@@ -14,9 +14,12 @@ import re
 import subprocess
 import sys
 
+HANG_S = 300
+
 
 def asked(greenbody, option):
-    done = subprocess.run([greenbody, option], capture_output=True, text=True, check=True)
+    done = subprocess.run([greenbody, option], capture_output=True, text=True, check=True,
+                          timeout=HANG_S)
     return done.stdout.splitlines()
 
 
@@ -37,7 +40,8 @@ FIGURE = re.compile(r'^  ([a-z-]+) +\S.*?(?: \((P[123] [^)]*)\))?$')
 
 def figures(greenbody):
     """Names of the figures, each with its source in the papers, or ''."""
-    done = subprocess.run([greenbody, 'plot', '--help'], capture_output=True, text=True, check=True)
+    done = subprocess.run([greenbody, 'plot', '--help'], capture_output=True, text=True, check=True,
+                          timeout=HANG_S)
     lines = done.stdout.splitlines()
     found = {}
     for line in lines[lines.index('Figures:') + 1:]:

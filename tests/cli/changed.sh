@@ -33,7 +33,7 @@ changes() {
     kill -STOP $pid # so that it happens between two points
     "$@"
     kill -CONT $pid
-    wait $pid
+    ended $pid
     is "$what: status 0" [ $? -eq 0 ]
     rows out | cmp -s - whole.rows
     result "$what: the curve is whole" $?
@@ -91,7 +91,7 @@ rm -rf out
 pid=$!
 until_true [ -e out/state-before.h5 ]
 kill -TERM $pid
-wait $pid
+ended $pid
 rm -rf lost
 cp -r out lost
 rm lost/state.h5

@@ -71,7 +71,7 @@ has_state() {
 pid=$!
 until_true has_state
 kill -KILL $pid
-wait $pid 2>/dev/null
+ended $pid 2>/dev/null
 # Behind the last checkpoint rows may be zeros, the status empty, a name temporary.
 head -c 3000 /dev/zero >>out/curve.csv
 head -c 100 /dev/zero >>out/events.log

@@ -44,7 +44,7 @@ interrupted() { # name, the event that is waited for, command: stopped then, wit
     pid=$!
     until_true sh -c "$event"
     kill -TERM $pid
-    wait $pid
+    ended $pid
     [ $? -eq 143 ] && harmless stdout stderr && grep -qF 'in stop\x1b[31m' stderr
     result "$name" $?
 }

@@ -65,7 +65,7 @@ begun() {
 engine=$!
 until_true begun
 kill -TERM $engine 2>/dev/null
-wait $engine
+ended $engine
 rm kept.csv
 mkdir elsewhere
 is 'a stopped run goes on without the file, from another folder' sh -c \

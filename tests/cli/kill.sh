@@ -52,14 +52,14 @@ killed() { # most milliseconds
         pause "$1"
         kill -KILL $! 2>/dev/null
     fi
-    wait $! 2>/dev/null
+    ended $! 2>/dev/null
 }
 
 campaign() { # kind, kills
     local kind=$1 left=$2 kills=0 runs=0 from length
     from=$(date +%s%N)
     begin "whole-$kind" "$kind"
-    wait $!
+    ended $!
     is "$kind: the undisturbed run ends" [ $? -eq 0 ]
     length=$((($(date +%s%N) - from) / 1000000))
     rows "whole-$kind" >"whole-$kind.rows"
@@ -123,7 +123,7 @@ catch() { # kind
         kill -STOP $engine 2>/dev/null
         until_true stands_or_gone
         stands && return
-        wait $engine
+        ended $engine
     done
 }
 
@@ -135,7 +135,7 @@ for signal in INT:130 TERM:143; do
     is "nor verified" [ $? -eq 2 ]
     kill -s "${signal%:*}" $engine
     kill -CONT $engine
-    wait $engine
+    ended $engine
     is "${signal%:*} gives ${signal#*:}" [ $? -eq "${signal#*:}" ]
     grep -q "\"points\" : $(rows broken | sed 1d | wc -l)," broken/status.json
     result "and keeps every point" $?

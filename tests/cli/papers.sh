@@ -58,7 +58,7 @@ one_is_done() {
 }
 until_true one_is_done
 kill -KILL $!
-wait $! 2>/dev/null
+ended $! 2>/dev/null
 is 'its workers stop by themselves' until_true none_works two
 before=$(grep -ls '"state" *: *"done"' two/P1-fig5/*/status.json | wc -l)
 is 'killed with some runs done and some not' [ "$before" -ge 1 ] && [ "$before" -lt 8 ]

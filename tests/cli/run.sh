@@ -93,7 +93,7 @@ for signal in INT:130 TERM:143; do
     pid=$!
     until_true presses
     kill -s "${signal%:*}" $pid
-    wait $pid
+    ended $pid
     is "${signal%:*} gives ${signal#*:}" [ $? -eq "${signal#*:}" ]
     is 'the state is kept' [ -s out/state.h5 ]
     is 'status says stopped' grep -q '"state" : "stopped"' out/status.json

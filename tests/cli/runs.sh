@@ -84,7 +84,7 @@ is 'and names the live run' grep -q '1 live, the newest in .*/first' stderr
 pid=$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["pid"])' "$kept/first/status.json")
 kill -KILL "$pid"
 is 'killed, it is interrupted' until_true eval 'list && says "^first  *interrupted  *0"'
-wait
+ended $!
 
 echo "1..$tests"
 exit "$bad"

@@ -167,7 +167,7 @@ pid=$!
 until_true two_work long
 is 'processes are called greenbody' three_named
 kill -TERM $pid
-wait $pid
+ended $pid
 is 'SIGTERM: status 143' [ $? -eq 143 ]
 is 'and nothing goes on' [ "$(grep -l '"state" : "running"' long/*/status.json | wc -l)" -eq 0 ]
 is 'the list says so' [ "$(grep -c 'missing\|stopped' long/runs.csv)" -eq 4 ]
@@ -176,7 +176,7 @@ is 'the list says so' [ "$(grep -c 'missing\|stopped' long/runs.csv)" -eq 4 ]
 pid=$!
 until_true two_work killed
 kill -KILL $pid
-wait $pid 2>/dev/null
+ended $pid 2>/dev/null
 is 'SIGKILL: the workers stop by themselves' until_true none_works killed
 
 # --- two at once in one directory --------------------------------------------------------
@@ -211,7 +211,7 @@ meet() {
             return
         fi
         kill -CONT "$worker" 2>/dev/null
-        wait $first
+        ended $first
     done
 }
 
@@ -224,9 +224,9 @@ is 'a second sweep does the runs that are left' until_true is_done shared/mu-0.1
 is 'and waits for the one under way' kill -0 $second
 is 'which it leaves alone' [ ! -e shared/sweep.csv ]
 kill -CONT "$worker"
-wait $first
+ended $first
 is 'the first ends with status 0' [ $? -eq 0 ]
-wait $second
+ended $second
 is 'and the second' [ $? -eq 0 ]
 is 'with the table of one' cmp alone/sweep.csv shared/sweep.csv
 is 'and its list' cmp alone/runs.csv shared/runs.csv
@@ -236,8 +236,8 @@ shared --jobs 1 --out shared >stdout 2>stderr &
 second=$!
 until_true is_done shared/mu-0.3_seed-2
 kill -KILL $first "$worker"
-wait $first 2>/dev/null
-wait $second
+ended $first 2>/dev/null
+ended $second
 is 'what a killed one leaves is done by the other' [ $? -eq 0 ]
 is 'with the same table' cmp alone/sweep.csv shared/sweep.csv
 
@@ -246,7 +246,7 @@ shared --jobs 2 --out shared >/dev/null 2>first.err &
 first=$!
 (shared --jobs 2 --out shared) >stdout 2>stderr
 is 'two from the start' [ $? -eq 0 ]
-wait $first
+ended $first
 is 'both' [ $? -eq 0 ]
 is 'have the same table' cmp alone/sweep.csv shared/sweep.csv
 

@@ -28,3 +28,19 @@ until_true() {
 in_patience() {
     timeout "$patience_s" "$@"
 }
+
+# Waits for a child to end and returns its status.  One that hangs is killed: status 137.
+ended() { # process
+    (
+        trap 'kill $!; exit' TERM
+        sleep "$patience_s" &
+        wait $!
+        kill -KILL "$1"
+    ) 2>/dev/null &
+    ended_guard=$!
+    wait "$1"
+    ended_status=$?
+    kill $ended_guard 2>/dev/null
+    wait $ended_guard 2>/dev/null
+    return $ended_status
+}

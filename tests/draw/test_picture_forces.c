@@ -113,7 +113,7 @@ static void put_wall(struct gb_state *state, int line, enum gb_die_wall wall, do
                      double y, double z)
 {
     const double force[3] = {x, y, z};
-    state->wall[2 * line + 1] = wall;
+    state->wall[2 * line + 1] = (int32_t)wall;
     memcpy(state->wall_force + 3 * line, force, sizeof force);
 }
 

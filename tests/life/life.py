@@ -95,7 +95,7 @@ class Life:
         """Nothing of a case that failed goes on."""
         for process in self.started:
             self._send(process, signal.SIGKILL)
-            process.wait()
+            process.wait(HANG_S)
 
     @staticmethod
     def _looked_up(process):
@@ -126,7 +126,7 @@ class Life:
                 used, wants = self._looked_up(process)
                 waited = 0.0 if wants else waited + 0.2
         self._send(process, signal.SIGKILL)
-        process.wait()
+        process.wait(HANG_S)
         if used >= processor_s:
             raise TooLong()
         raise Broken('hang', what)
@@ -389,7 +389,8 @@ class Life:
         check_files(self.directory)
         if os.path.exists(os.path.join(self.straight, 'state.h5')):
             done = subprocess.run([self.tools.same_state, self.straight, self.directory],
-                                  stderr=subprocess.PIPE, text=True, check=False)
+                                  stderr=subprocess.PIPE, text=True, check=False,
+                                  timeout=HANG_S)
             expect(done.returncode == 0, 'state', done.stderr.strip())
             status, stderr = self._command('verify', self.directory)
             answer(status, stderr, {0}, 'verify at the end')

@@ -26,7 +26,7 @@ import time
 sys.dont_write_bytecode = True
 
 from check import Broken  # noqa: E402  # pylint: disable=wrong-import-position
-from life import Life, TooLong, random_steps  # noqa: E402  # pylint: disable=wrong-import-position
+from life import HANG_S, Life, TooLong, random_steps  # noqa: E402  # pylint: disable=wrong-import-position
 import scenes  # noqa: E402  # pylint: disable=wrong-import-position
 from shrink import shrink  # noqa: E402  # pylint: disable=wrong-import-position
 
@@ -122,7 +122,7 @@ def has_clock(greenbody, leap_clock):
     """Whether this program takes another clock (under sanitizers it does not)."""
     return subprocess.run([greenbody, '--version'], env={**os.environ, 'LD_PRELOAD': leap_clock},
                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                          check=False).returncode == 0
+                          check=False, timeout=HANG_S).returncode == 0
 
 
 def main():

@@ -68,7 +68,8 @@ class Terminal:
 
     def tmux(self, *words):
         return subprocess.run(['tmux', '-u', '-L', self.socket, '-f', self.settings, *words],
-                              env=self.env, capture_output=True, text=True).stdout
+                              env=self.env, capture_output=True, text=True,
+                              timeout=PATIENCE_S).stdout
 
     def start(self, words):
         before = ['env', 'NO_COLOR=1'] if self.mode == 'mono' else []

@@ -19,7 +19,7 @@ import time
 
 from cell_checks import (check_axis, check_box, check_mode, check_numbers, check_panes,
                          numbers)
-from cell_terminal import MODES, Results, Stopped, Terminal
+from cell_terminal import MODES, PATIENCE_S, Results, Stopped, Terminal
 
 SIZES = [(200, 60), (120, 40), (80, 24), (60, 20)]  # the widest first
 CUT = re.compile(r'\S [-+]?\d[\d.]*…')
@@ -76,7 +76,7 @@ class Walk:
 
     def views(self, cols, lines):
         listed = subprocess.run([self.terminal.program, '--views'], capture_output=True,
-                                text=True).stdout.splitlines()
+                                text=True, timeout=PATIENCE_S).stdout.splitlines()
         for line in listed:
             key, title = line.split(' ', 1)
             self.terminal.keys(key)
@@ -184,7 +184,8 @@ class Walk:
         subprocess.run([self.terminal.program, 'sweep', 'default', 'particles.count=100',
                         'loading.until=200 MPa', 'loading.unload_from=', '--quiet',
                         '--vary', 'contact.mu=0.1;0.3', '--vary', 'contact.alpha=0.24;0.4',
-                        '--replicas', '2', '--out', there], env=self.terminal.env, check=True)
+                        '--replicas', '2', '--out', there], env=self.terminal.env, check=True,
+                       timeout=PATIENCE_S)
         self.terminal.start(['attach', there])
         self.terminal.until_shown('8 runs: 8 done')
 
@@ -271,7 +272,7 @@ class Walk:
             terminal.until_gone('Result: ')
 
         version = subprocess.run([terminal.program, '--version'], capture_output=True,
-                                 text=True).stdout
+                                 text=True, timeout=PATIENCE_S).stdout
         if 'no pictures' not in version:
             makes('picture', 's', 'Enter')
         makes('report', 'x')

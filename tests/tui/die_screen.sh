@@ -50,7 +50,7 @@ shows 'one who follows the run sees it' '▶ filling [0-9]* of 1751$'
 shows 'and what is known' 'in die *[0-9]'
 leaves 'leaves the run alone'
 kill "$engine"
-wait "$engine"
+ended "$engine"
 
 start p3-hertz-mu0 numerics.fidelity=fast particles.count=40
 shows 'a small die is pressed' '✓ done'

@@ -117,7 +117,7 @@ under_pty() {
     is 'pty: the run is kept' more_rows 3
     find_engine ''
     kill -KILL $terminal
-    wait $terminal 2>/dev/null
+    ended $terminal 2>/dev/null
     lives_on pty
 }
 
@@ -178,7 +178,7 @@ run=$here/killed
 engine=$!
 is 'killed: the run is kept' more_rows 3
 kill -KILL $engine
-wait $engine 2>/dev/null
+ended $engine 2>/dev/null
 engine=
 grep -q '"state" : "running"' "$run/status.json"
 result 'killed: its status still says that it runs' $?
@@ -209,10 +209,10 @@ watcher=$!
 is 'lost: without a screen, too' grep -q density "$here/attach"
 mv "$run" "$here/gone" # at once: rm alone may find what is written meanwhile
 until_true rm -rf "$here/gone"
-wait $watcher
+ended $watcher
 [ $? -eq 3 ] && grep -q 'quiet-2: was moved or removed' "$here/attach"
 result 'lost: attach ends with a line and status 3' $?
-wait $engine
+ended $engine
 [ $? -eq 3 ] && grep -q 'quiet-2: was moved or removed' "$here/err"
 result 'lost: so does the engine' $?
 is 'lost: the screen says it' has 'was moved or removed'

@@ -49,7 +49,7 @@ shows "and comes back" 'mean and standard error'
 sweep --replicas 3 --jobs 1 &
 shows "new runs are seen" '12 runs: '
 shows "until they are done" '12 runs: 12 done'
-wait
+ended $!
 shows "as cells of their groups" '3 cells'
 leaves "closes"
 sweep --replicas 3 --jobs 1 --at '37;130 MPa'

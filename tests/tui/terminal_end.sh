@@ -30,7 +30,7 @@ is 'the run of the closed terminal goes on' has_process "$closed"
 is 'so does the one without' has_process "$without"
 
 kill -TERM $inner
-wait $inner
+ended $inner
 is 'the stopped test has failed' [ $? -eq 1 ]
 is 'and said where' grep -q '^# stopped after test' "$here/out"
 is 'the run of the closed terminal has ended' has_no_process "$closed"

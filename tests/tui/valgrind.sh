@@ -48,7 +48,7 @@ has_points() {
 }
 until_true has_points
 kill -TERM $!
-wait $!
+ended $!
 is 'a run stopped by TERM says so' [ $? -eq 143 ]
 clean 'a resumed run' resume --quiet stopped
 if "$greenbody" snapshot rest -o trial.png >out 2>&1; then
