@@ -31,16 +31,10 @@ in_patience() {
 
 # Waits for a child to end and returns its status.  One that hangs is killed: status 137.
 ended() { # process
-    (
-        trap 'kill $!; exit' TERM
-        sleep "$patience_s" &
-        wait $!
-        kill -KILL "$1"
-    ) 2>/dev/null &
-    ended_guard=$!
+    until_true is_over "$1" || kill -KILL "$1"
     wait "$1"
-    ended_status=$?
-    kill $ended_guard 2>/dev/null
-    wait $ended_guard 2>/dev/null
-    return $ended_status
+}
+
+is_over() { # process
+    ! kill -0 "$1" 2>/dev/null || grep -qs '^State:.Z' "/proc/$1/status"
 }
