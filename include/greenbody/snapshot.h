@@ -48,7 +48,7 @@ struct gb_snapshot {
     char event[GB_EVENT_TEXT];    /* the last one */
     struct gb_error
         error; /* why it failed or stopped; of a run that is done, goals that it
-                              has not reached */
+                              has missed */
 };
 
 #ifdef __cplusplus

@@ -159,7 +159,7 @@ class Experiment(Packing):
 
         Raises GuardError or NotConvergedError where the run was stopped, CancelledError where it
         was cancelled, KeyboardInterrupt after one: the points so far are kept, and after the
-        last two it can be advanced further.  A run that ends without reaching a goal warns
+        last two it can be advanced further.  A run that misses a goal warns
         (GoalWarning).
         """
         if not self._busy.acquire(blocking=False):

@@ -27,7 +27,7 @@ class InputError(GreenbodyError, ValueError):
 
 
 class GoalWarning(UserWarning):
-    """A run ended without reaching a goal, or with points that are not in equilibrium (the
+    """A run ended without reaching a goal, or beyond one, or with points that are not in equilibrium (the
     program's exit status 1)."""
 
 

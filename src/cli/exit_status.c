@@ -10,7 +10,8 @@ static const struct {
     {"0", "done"},
     {"1",
      "a physical or numerical guard stopped the run, or it ended without reaching a goal "
-     "(loading.until, a pressure of loading.unload_from) or with points that are not in "
+     "(loading.until, a pressure of loading.unload_from) or beyond one (also the end of a leg "
+     "of loading.path), or with points that are not in "
      "equilibrium; the results are kept"},
     {"2", "bad usage or input; one line with the rejected value and what is accepted"},
     {"3", "the machine: disk full, no permission, out of memory"},

@@ -5,8 +5,12 @@
 
 #include <glib.h>
 
+#include "base/alloc.h"
+#include "base/clock.h"
 #include "base/units.h"
+#include "run/checkpoint.h"
 #include "run/experiment.h"
+#include "run/pace.h"
 #include "scene/derived.h"
 #include "scene/loading_kind.h"
 
@@ -168,13 +172,44 @@ bool gb_cost_within_limit(double seconds)
     return !(seconds > limit_s);
 }
 
-double gb_cost_rate_measured(const struct gb_experiment *experiment,
-                             int64_t evaluations_before, double seconds)
+static double time_copy(struct gb_experiment *copy, double seconds, bool *ended)
 {
-    const int64_t evaluations =
-        gb_experiment_evaluations(experiment) - evaluations_before;
-    const int64_t count = gb_experiment_params(experiment)->count;
-    return seconds > 0.0 ? (double)evaluations * (double)count / seconds : 0.0;
+    struct gb_pace pace;
+    struct gb_error ignored;
+    const int64_t before = gb_experiment_evaluations(copy);
+    const double start = gb_clock_s();
+    double now = start;
+    gb_pace_init(&pace);
+    while (!gb_experiment_over(copy) && now - start < seconds) {
+        const double from = now;
+        const enum gb_step_outcome how =
+            gb_experiment_advance(copy, gb_pace_slice(&pace), &ignored);
+        now = gb_clock_s();
+        gb_pace_sliced(&pace, now - from, how == GB_STEP_MORE);
+    }
+    *ended = gb_experiment_over(copy);
+    const double steps = (double)(gb_experiment_evaluations(copy) - before);
+    return now > start ? steps * (double)gb_experiment_params(copy)->count / (now - start)
+                       : 0.0;
+}
+
+bool gb_cost_rate_try(struct gb_experiment *experiment, double seconds,
+                      double *particle_steps_per_s, bool *ended, struct gb_error *err)
+{
+    struct gb_experiment *copy = NULL;
+    struct gb_record *record = gb_alloc_array(1, sizeof *record, err);
+    const bool good =
+        record && gb_checkpoint_take(experiment, record, err) &&
+        gb_experiment_resume(&copy, gb_experiment_params(experiment), record, err);
+    if (good) {
+        *particle_steps_per_s = time_copy(copy, seconds, ended);
+    }
+    gb_experiment_destroy(copy);
+    if (record) {
+        gb_record_finish(record);
+    }
+    gb_alloc_free(record);
+    return good;
 }
 
 char *gb_cost_duration(double seconds, char *buffer, size_t size)

@@ -30,10 +30,15 @@ bool gb_cost_estimate(const struct gb_params *params, double particle_steps_per_
 /* Particle-steps per second before anything is measured. */
 double gb_cost_rate_assumed(const struct gb_params *params);
 
-/* Particle-steps per second of a running experiment, one evaluation a step: of those
- * after evaluations_before, in seconds.  0 while nothing was evaluated. */
-double gb_cost_rate_measured(const struct gb_experiment *experiment,
-                             int64_t evaluations_before, double seconds);
+/* Speed of an experiment before its first point, one evaluation a step.  A copy of it runs;
+ * the experiment stays where it is, so that every point is recorded as it is computed.
+ *
+ * seconds              that the copy runs, unless it ends before
+ * particle_steps_per_s 0: nothing was evaluated
+ * ended                the copy came to its end
+ * Errors: GB_ERR_MEMORY and others of gb_experiment_resume. */
+bool gb_cost_rate_try(struct gb_experiment *experiment, double seconds,
+                      double *particle_steps_per_s, bool *ended, struct gb_error *err);
 
 /* Seconds that a quasi-static run will take about, by those that its quick cell
  * (run/quick.h) took on this machine: good to a factor of two.  NaN for other kinds. */

@@ -180,7 +180,6 @@ enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
     return outcome;
 }
 
-/* Goals of a path's legs are events of their own. */
 bool gb_experiment_missed(const struct gb_experiment *experiment, char *text, size_t size)
 {
     const struct gb_loading *loading = experiment->loading;

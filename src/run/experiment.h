@@ -32,8 +32,8 @@ void gb_experiment_destroy(struct gb_experiment *experiment); /* NULL is fine */
 enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
                                            int64_t max_evaluations, struct gb_error *err);
 
-/* What a run that has come to its end leaves undone, as one line into text: goals of the
- * loading never reached, points that are not in equilibrium.  False: nothing. */
+/* What a run that has come to its end has missed, as one line into text: goals of the
+ * loading never reached or exceeded, points that are not in equilibrium.  False: nothing. */
 bool gb_experiment_missed(const struct gb_experiment *experiment, char *text,
                           size_t size);
 

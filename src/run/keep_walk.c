@@ -7,6 +7,7 @@ enum { SLICE = 200 };
 
 /* Points that a run has reached so far. */
 struct progress {
+    const struct gb_params *params;
     const struct gb_keep_points *points;
     double p_pa, density; /* highest while loading */
     int reached;
@@ -24,7 +25,7 @@ static bool is_due(struct progress *progress, const struct gb_point *point)
         const struct gb_keep_point *at = &progress->points->point[k];
         const double before = at->by_density ? progress->density : progress->p_pa;
         const double now = at->by_density ? point->density : point->p_pa;
-        due += before < at->value && now >= at->value;
+        due += gb_keep_points_reached(at, progress->params, before, now);
     }
     progress->p_pa = fmax(progress->p_pa, point->p_pa);
     progress->density = fmax(progress->density, point->density);
@@ -65,7 +66,7 @@ bool gb_keep_walk_run(const struct gb_params *params, const struct gb_keep_walk 
                       int *missed, struct gb_error *err)
 {
     struct gb_experiment *experiment = NULL;
-    struct progress progress = {walk->points, -INFINITY, -INFINITY, 0, false};
+    struct progress progress = {params, walk->points, -INFINITY, -INFINITY, 0, false};
     if (!gb_experiment_create(&experiment, params, walk->cancelled, walk->cancel_data,
                               err)) {
         return false;

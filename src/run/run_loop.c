@@ -209,21 +209,18 @@ void gb_run_loop_inherit(struct gb_run_loop *loop, const struct gb_curve *curve)
     }
 }
 
-bool gb_run_loop_ended(const struct gb_run_loop *loop)
+/* After the end it returns the end again. */
+static enum gb_step_outcome slice(struct gb_run_loop *loop)
 {
-    return loop->last == GB_STEP_DONE || loop->last == GB_STEP_STOPPED;
-}
-
-enum gb_step_outcome gb_run_loop_slice(struct gb_run_loop *loop)
-{
-    if (!gb_run_loop_ended(loop)) {
-        const double from = gb_clock_s();
-        loop->last = gb_experiment_advance(loop->experiment, gb_pace_slice(&loop->pace),
-                                           &loop->error);
-        gb_pace_sliced(&loop->pace, gb_clock_s() - from, loop->last == GB_STEP_MORE);
-        if (loop->last != GB_STEP_STOPPED) {
-            loop->error = (struct gb_error){0}; /* one from which a guard went on */
-        }
+    if (loop->last == GB_STEP_DONE || loop->last == GB_STEP_STOPPED) {
+        return loop->last;
+    }
+    const double from = gb_clock_s();
+    loop->last =
+        gb_experiment_advance(loop->experiment, gb_pace_slice(&loop->pace), &loop->error);
+    gb_pace_sliced(&loop->pace, gb_clock_s() - from, loop->last == GB_STEP_MORE);
+    if (loop->last != GB_STEP_STOPPED) {
+        loop->error = (struct gb_error){0}; /* one from which a guard went on */
     }
     return loop->last;
 }
@@ -283,7 +280,7 @@ enum gb_run_state gb_run_loop_state(enum gb_run_outcome outcome)
 
 static enum gb_run_outcome advance(struct gb_run_loop *loop)
 {
-    const enum gb_step_outcome how = gb_run_loop_slice(loop);
+    const enum gb_step_outcome how = slice(loop);
     take_events(loop);
     switch (how) {
     case GB_STEP_MORE:

@@ -39,7 +39,7 @@ struct gb_run_loop {
     struct gb_experiment *experiment; /* owned; NULL before gb_run_loop_attach */
     struct gb_run_recorder *recorder; /* owned, set by the caller; NULL: not recorded */
     struct gb_snapshot snapshot;      /* as of the last gb_run_loop_observe */
-    struct gb_error error; /* why the run ended early, or what it has not reached */
+    struct gb_error error;            /* why the run ended early, or what it has missed */
     struct gb_pace pace;
     enum gb_step_outcome last; /* result of the last slice */
     bool record_failed;        /* the run directory could not be written */
@@ -68,14 +68,9 @@ void gb_run_loop_attach(struct gb_run_loop *loop, struct gb_experiment *experime
  * experiment. */
 void gb_run_loop_inherit(struct gb_run_loop *loop, const struct gb_curve *curve);
 
-/* One slice and nothing else (run/warmup.h).  After the end it returns the end again. */
-enum gb_step_outcome gb_run_loop_slice(struct gb_run_loop *loop);
-/* True after the last slice. */
-bool gb_run_loop_ended(const struct gb_run_loop *loop);
-
 /* Runs to the end and writes the last files; never GB_RUN_OUTCOME_NONE.  The reason of an
- * early end is loop->error, and an event; so are goals that a run which is done has not
- * reached (GB_ERR_GUARD). */
+ * early end is loop->error, and an event; so are goals that a run which is done has
+ * missed (GB_ERR_GUARD). */
 enum gb_run_outcome gb_run_loop_run(struct gb_run_loop *loop);
 /* The same for at most so many points: GB_RUN_OUTCOME_NONE when they are recorded and the
  * run has not ended.  May be called again then, and after GB_RUN_OUTCOME_CANCELLED: the run

@@ -131,6 +131,16 @@ is 'attach tells none either' grep -q 'out: p 0 MPa, step' stderr
 is 'nor is there a nan' sh -c '! grep -q nan stderr'
 rm -rf out
 
+# --- states of the first moments of a dynamic run -------------------------------------------
+"$greenbody" run p2-v1 particles.count=100 'loading.relax=0.1 ns' 'loading.hold=0.1 ns' \
+    'output.snapshots_at=density = 0.7; density = 0.95; every 300' output.export=extxyz --out out \
+    >stdout 2>stderr
+is 'a short dynamic run' [ $? -eq 0 ]
+is 'keeps all states' [ "$(ls out/snapshots | tr '\n' ' ')" = \
+    'density-0.7.h5 density-0.95.h5 point-000001.h5 point-000301.h5 point-000601.h5 ' ]
+is 'and exports them from the first on' [ "$(grep -c Lattice= out/trajectory.extxyz)" -eq 5 ]
+rm -rf out
+
 # --- goals that are not reached ----------------------------------------------------------
 # name, text of the event, keys...
 misses() {
@@ -149,6 +159,21 @@ misses 'a soft powder' 'not reached: loading.until = 1 GPa, loading.unload_from 
     'material.young=10 GPa' 'particles.diameter=1 um'
 "$greenbody" resume out >stdout 2>stderr
 is 'resumed, it says so again' [ $? -eq 1 ]
+rm -rf out
+misses 'a step past the end' 'exceeded: loading.until = 5 MPa by ' 'loading.until=5 MPa' \
+    loading.unload_from= 'loading.step=2 %'
+"$greenbody" resume out >stdout 2>stderr
+is 'resumed, it says so again' [ $? -eq 1 ]
+is 'a sweep of it is done' sh -c '"$1" sweep default particles.count=200 loading.unload_from= \
+    "loading.until=5 MPa" "loading.step=2 %" --replicas 2 --out cells >stdout 2>stderr' - "$greenbody"
+is 'and shows the cells' [ "$(grep -c 'exceeded: loading.until' cells/runs.csv)" -eq 2 ]
+rm -rf out cells
+misses 'a step past an unloading' 'exceeded: loading.unload_from = 1 MPa by ' \
+    'loading.until=density=0.3' 'loading.unload_from=1 MPa' 'loading.step=2 %'
+rm -rf out
+misses 'a step past the end of a leg' 'exceeded: leg 1 (uniaxial z to z = 1 MPa) ends at z = ' \
+    'loading.path=uniaxial z to z = 1 MPa' 'loading.step=0.5 %' particles.count=150 \
+    structure.seed=6 numerics.fidelity=fast
 rm -rf out
 misses 'a low density' 'not reached: loading.unload_from = 100 MPa; 1 GPa; ended' \
     loading.until=density=0.3
@@ -258,6 +283,14 @@ refused_set 'unloading beyond the end' 'loading.unload_from=2 GPa'
 refused_set 'unknown choice' loading.geometry=sideways
 refused_set 'unknown relaxer' numerics.relaxer=prayer
 # days on any machine, known before there is a directory
+mkdir -p kept/old
+"$greenbody" run default particles.count=100 'loading.until=density=0.25' loading.unload_from= \
+    --quiet --out kept/old
+cp -r kept/old kept/copy
+refused 'a long dynamic run is not begun unasked in an old directory' 2 \
+    "$greenbody" run p2-v5 --set 'numerics.time_step=0.001 T' --force --out kept/old
+is 'which stays as it was' diff -r kept/old kept/copy
+rm -rf kept
 refused 'a long dynamic run is not begun unasked' 2 \
     "$greenbody" run p2-v5 --set 'numerics.time_step=0.001 T' --out out
 is 'and the way to begin it is named' grep -qe --yes stderr

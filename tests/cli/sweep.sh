@@ -76,6 +76,9 @@ is 'points out of equilibrium are told' grep -q 'missed a goal .*equilibrium: 2 
 is 'with their number' \
     [ "$(grep -c ',done,"[0-9]* of [0-9]* points are not in equilibrium"' unrelaxed/runs.csv)" -eq 2 ]
 is 'and in the table of means' grep -q '^# runs that missed a goal .*: 2 (runs.csv)' unrelaxed/sweep.csv
+short 'loading.until=20 MPa' 'loading.step=2 %' --out exceeded
+is 'so are those that are exceeded' \
+    [ "$(grep -c ',done,"exceeded: loading.until = 20 MPa by' exceeded/runs.csv)" -eq 2 ]
 short 'loading.until=100 GPa' 'material.young=10 GPa' numerics.fidelity=fast --out unreached
 is 'so are goals' [ "$(grep -c ',done,"not reached: loading.until = 100 GPa' unreached/runs.csv)" -eq 2 ]
 

@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "pack/cell/world.h"
 #include "run/cost.h"
 #include "run/experiment.h"
 #include "run/quick.h"
@@ -97,27 +98,43 @@ static void test_unasked(void)
     g_assert_nonnull(strstr(line, "8 h 55 min at 10M/s"));
 }
 
-/* The rate comes from the experiment's own evaluations. */
-static void test_measured(void)
+/* State and evaluations after so many points; tried: a copy was timed before the first. */
+static uint64_t hash_after(const struct gb_params *params, bool tried,
+                           int64_t *evaluations)
 {
-    struct gb_params params;
     struct gb_experiment *experiment = NULL;
-    struct gb_snapshot shot = {0};
     struct gb_error err = {0};
-    gb_params_init(&params);
+    double rate = 0.0;
+    bool ended = false;
+    g_assert_true(gb_experiment_create(&experiment, params, NULL, NULL, &err));
+    if (tried) {
+        g_assert_true(gb_cost_rate_try(experiment, 1e-3, &rate, &ended, &err));
+        g_assert_cmpfloat(rate, >, 0.0);
+        g_assert_false(ended);
+        g_assert_true(gb_cost_rate_try(experiment, 0.0, &rate, &ended, &err));
+        g_assert_cmpfloat(rate, ==, 0.0);
+    }
+    for (int points = 0; points < 20;) {
+        points += gb_experiment_advance(experiment, 100, &err) == GB_STEP_POINT;
+    }
+    const uint64_t hash = gb_world_hash(gb_experiment_world(experiment));
+    *evaluations = gb_experiment_evaluations(experiment);
+    gb_experiment_destroy(experiment);
+    return hash;
+}
+
+/* A copy gives the rate: no point of the run is lost, and no bit depends on it. */
+static void test_tried(void)
+{
+    struct gb_params params = slowest();
+    int64_t evaluations[2];
     params.count = 200;
     params.threads = 1;
-    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    gb_experiment_observe(experiment, &shot);
-    const int64_t before = shot.evaluations;
-    g_assert_cmpfloat(gb_cost_rate_measured(experiment, before, 0.5), ==, 0.0);
-    gb_experiment_advance(experiment, 10, &err);
-    gb_experiment_observe(experiment, &shot);
-    const double expected = (double)(shot.evaluations - before) * 200.0 / 0.5;
-    g_assert_cmpfloat(expected, >, 0.0);
-    g_assert_cmpfloat(gb_cost_rate_measured(experiment, before, 0.5), ==, expected);
-    g_assert_cmpfloat(gb_cost_rate_measured(experiment, before, 0.0), ==, 0.0);
-    gb_experiment_destroy(experiment);
+    params.rate_per_s = 1e9;
+    params.relax_s = 0.5e-9;
+    g_assert_true(hash_after(&params, true, &evaluations[0]) ==
+                  hash_after(&params, false, &evaluations[1]));
+    g_assert_cmpint(evaluations[0], ==, evaluations[1]);
     g_assert_cmpfloat(gb_cost_rate_assumed(&params), ==, 8e6);
     params.threads = -1; /* auto: too few particles for a second thread */
     g_assert_cmpfloat(gb_cost_rate_assumed(&params), ==, 8e6);
@@ -157,7 +174,7 @@ int main(int argc, char **argv)
     g_test_add_func("/cost/rate-and-step", test_rate_and_step);
     g_test_add_func("/cost/refused", test_refused);
     g_test_add_func("/cost/unasked", test_unasked);
-    g_test_add_func("/cost/measured", test_measured);
+    g_test_add_func("/cost/tried", test_tried);
     g_test_add_func("/cost/from-quick", test_from_quick);
     return g_test_run();
 }

@@ -1,9 +1,11 @@
 #include <glib.h>
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "common/scene.h"
 #include "pack/cell/world.h"
+#include "run/checkpoint.h"
 #include "run/experiment.h"
 
 static struct gb_experiment *create(const struct gb_params *params)
@@ -33,7 +35,7 @@ static void take_events(struct trace *trace, struct gb_experiment *experiment)
     }
 }
 
-/* When events are taken: the run command does it after each slice, a warm-up at the end. */
+/* When events are taken: the run command does it after each slice, a caller may do it at the end. */
 enum taking { AFTER_EACH_SLICE, AT_THE_END };
 
 static struct trace run_taking(const struct gb_params *params, int64_t slice,
@@ -325,6 +327,88 @@ static void test_state(void)
     gb_experiment_destroy(experiment);
 }
 
+/* To the end; stop > 0: a checkpoint is taken after so many points, and another experiment
+ * continues from it.  What was missed goes into text. */
+static bool missed(const struct gb_params *params, int stop, char *text, size_t size)
+{
+    struct gb_experiment *experiment = create(params);
+    struct gb_error err = {0};
+    int points = 0;
+    for (enum gb_step_outcome how = GB_STEP_MORE; how != GB_STEP_DONE;) {
+        how = gb_experiment_advance(experiment, 1000, &err);
+        g_assert_true(how != GB_STEP_STOPPED);
+        points += how == GB_STEP_POINT;
+        if (how == GB_STEP_POINT && points == stop) {
+            struct gb_record *record = g_new0(struct gb_record, 1);
+            struct gb_experiment *next = NULL;
+            g_assert_true(gb_checkpoint_take(experiment, record, &err));
+            g_assert_true(gb_experiment_resume(&next, params, record, &err));
+            gb_experiment_destroy(experiment);
+            experiment = next;
+            gb_record_finish(record);
+            g_free(record);
+        }
+    }
+    g_assert_true(stop < points);
+    const bool result = gb_experiment_missed(experiment, text, size);
+    gb_experiment_destroy(experiment);
+    return result;
+}
+
+/* Goals that are exceeded are named, also after a resumption; within the tolerance none is. */
+static void test_exceeded(void)
+{
+    static const struct {
+        const char *text; /* NULL: nothing is missed */
+        int stop;
+        const char *keys[4];
+    } rows[] = {
+        {"exceeded: loading.until = 1 MPa by ",
+         0,
+         {"loading.until=1 MPa", "loading.step=2 %"}},
+        {"exceeded: loading.until = 10 MPa by ",
+         3,
+         {"loading.until=10 MPa", "loading.step=2 %"}},
+        {"exceeded: loading.unload_from = 1 MPa by ",
+         8,
+         {"loading.until=density=0.3", "loading.unload_from=1 MPa; 20 MPa",
+          "loading.step=2 %"}},
+        {"not reached: loading.unload_from = 400 MPa; exceeded: loading.unload_from = 1 MPa",
+         8,
+         {"loading.until=density=0.3", "loading.unload_from=1 MPa; 400 MPa",
+          "loading.step=2 %"}},
+        {"exceeded: leg 1 (uniaxial z to z = 1 MPa) ends at z = ",
+         10,
+         {"loading.path=uniaxial z to z = 1 MPa; uniaxial z to density 0.28",
+          "loading.step=0.5 %", "structure.seed=8"}},
+        {NULL, 5, {"loading.until=20 MPa", "loading.unload_from=10 MPa"}},
+        {NULL, 5, {"loading.until=density=0.27"}},
+        {NULL, 5, {"loading.path=isotropic to 10 MPa; unload to 2 MPa"}},
+        {NULL,
+         5,
+         {"loading.path=isotropic to 20 MPa; cycle 2 times triaxial between 0.2 % and 0 "
+          "%"}},
+    };
+    for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
+        struct gb_params params =
+            scene_params("particles.count=150", "numerics.fidelity=fast", NULL);
+        struct gb_error err = {0};
+        char text[GB_EVENT_TEXT];
+        for (int i = 0; rows[k].keys[i] != NULL; i++) {
+            if (!gb_params_assign(&params, rows[k].keys[i], &err)) {
+                g_error("%s", err.text);
+            }
+        }
+        for (int resumed = 0; resumed < 2; resumed++) {
+            const bool any =
+                missed(&params, resumed ? rows[k].stop : 0, text, sizeof text);
+            g_test_message("%s: %s", rows[k].keys[0], text);
+            g_assert_true(any == (rows[k].text != NULL));
+            g_assert_true(!any || g_str_has_prefix(text, rows[k].text));
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -338,5 +422,6 @@ int main(int argc, char **argv)
     g_test_add_func("/experiment/cancel", test_cancel);
     g_test_add_func("/experiment/memory", test_memory);
     g_test_add_func("/experiment/state", test_state);
+    g_test_add_func("/experiment/exceeded", test_exceeded);
     return g_test_run();
 }

@@ -176,6 +176,40 @@ static void test_bounce(void)
     }
 }
 
+/* The same punch is driven into the powder, which carries more than was asked for. */
+static void shove(struct gb_loading *loading, int point)
+{
+    const struct gb_model *model = loading->model;
+    if (point == 38) {
+        loading->bed->die.punch_velocity =
+            -0.5 * model->die.second_per_time / model->metre_per_length;
+    }
+}
+
+/* Whether the present state says that forces on floor and punch are in equilibrium. */
+static bool settles_last(const GString *events)
+{
+    const char *again = g_strrstr(events->str, "quasi-static again");
+    return again != NULL && strstr(again, "not quasi-static") == NULL;
+}
+
+static void test_exceeded(void)
+{
+    const struct gb_params params =
+        die_params("die.punch_mass=100", "loading.until=20 MPa",
+                   "loading.record_pressure=500 kPa", "loading.time=100 us", NULL);
+    struct outcome outcome = press(&params, shove);
+    const struct gb_loading_report *last = &outcome.point[outcome.count - 1];
+    g_assert_cmpint(outcome.how, ==, GB_STEP_DONE);
+    g_assert_true(outcome.missed);
+    g_assert_true(g_str_has_prefix(outcome.goal, "exceeded: loading.until = 20 MPa; the "
+                                                 "powder carried up to "));
+    g_assert_true(fabs(last->pressure[2] / last->target_pressure - 1.0) <=
+                      GB_DIE_GOAL_TOLERANCE ||
+                  !settles_last(outcome.events));
+    finish(&outcome);
+}
+
 /* Contacts and walls without dissipation keep the poured powder moving. */
 static void test_restless(void)
 {
@@ -196,6 +230,7 @@ int main(int argc, char **argv)
     g_test_add_func("/die/extremes/light_punch", test_light_punch);
     g_test_add_func("/die/extremes/sudden", test_sudden);
     g_test_add_func("/die/extremes/bounce", test_bounce);
+    g_test_add_func("/die/extremes/exceeded", test_exceeded);
     g_test_add_func("/die/extremes/restless", test_restless);
     return g_test_run();
 }

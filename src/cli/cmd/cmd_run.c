@@ -8,13 +8,12 @@
 #include "cli/options.h"
 #include "io/preset.h"
 #include "run/cost.h"
-#include "run/warmup.h"
 #include "scene/loading_kind.h"
 
 /* A packing that takes longer than this (s) is announced before it is built. */
 static const double patience_s = 2.0;
-/* Seconds that a dynamic run is timed for the estimate of its cost. */
-static const double warmup_s = 0.3;
+/* Seconds that a copy of a dynamic run is timed for the estimate of its cost. */
+static const double copy_s = 0.3;
 
 struct run {
     char *directory;
@@ -23,7 +22,6 @@ struct run {
     struct gb_model model;
     bool announced;
     struct gb_foreground foreground;
-    struct gb_warmup warmup; /* of a dynamic run */
 };
 
 static const struct gb_params *params_of(const struct run *run)
@@ -92,22 +90,24 @@ static bool estimate(struct run *run, char *line, size_t size, struct gb_error *
     if (!gb_loading_kind_of(params)->given_rate) {
         return true;
     }
-    gb_warmup_run(&run->warmup, loop, warmup_s);
-    const double rate = run->warmup.particle_steps_per_s;
-    if (!gb_cost_estimate(params, rate > 0.0 ? rate : gb_cost_rate_assumed(params), &cost,
+    double rate = 0.0;
+    bool ended = false;
+    const double from = gb_run_loop_seconds(loop);
+    if (!gb_cost_rate_try(loop->experiment, copy_s, &rate, &ended, err) ||
+        !gb_cost_estimate(params, rate > 0.0 ? rate : gb_cost_rate_assumed(params), &cost,
                           err)) {
         return false;
     }
+    gb_run_loop_exclude(loop, gb_run_loop_seconds(loop) - from);
     gb_cost_line(&cost, line, size);
-    return run->yes || gb_run_loop_ended(loop) || gb_cost_check_limit(&cost, err);
+    return run->yes || ended || gb_cost_check_limit(&cost, err);
 }
 
 static bool start_record(struct run *run, struct gb_error *err)
 {
     return gb_simulation_start_record(run->foreground.simulation, run->directory,
                                       run->replace ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP,
-                                      err) &&
-           gb_warmup_record(&run->warmup, loop_of(run)->recorder, err);
+                                      err);
 }
 
 static bool begin(struct run *run, struct gb_error *err)
@@ -194,7 +194,6 @@ int gb_cmd_run(int argc, char **argv)
         status = perform(&run, words, sets);
     }
     g_free(from);
-    gb_warmup_finish(&run.warmup);
     gb_foreground_finish(&run.foreground);
     gb_preset_destroy(run.preset);
     g_free(run.directory);

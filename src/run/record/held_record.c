@@ -53,20 +53,6 @@ bool gb_held_record_complete(struct gb_held_record *held, struct gb_error *err)
     return held->fresh;
 }
 
-bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
-                          struct gb_error *err)
-{
-    struct gb_record *last = gb_writer_record(held->writer);
-    if (!gb_writer_wait(held->writer, err)) {
-        return false;
-    }
-    gb_record_finish(last);
-    *last = *record;
-    *record = (struct gb_record){0};
-    held->taken_s = gb_clock_s();
-    return gb_held_record_complete(held, err);
-}
-
 bool gb_held_record_catch_up(struct gb_held_record *held, struct gb_error *err)
 {
     struct gb_record *record = gb_writer_record(held->writer);

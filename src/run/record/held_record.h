@@ -36,10 +36,6 @@ void gb_held_record_skip(struct gb_held_record *held, const struct gb_point *poi
 /* Adds the journal to the record of the last point, which is complete then. */
 bool gb_held_record_complete(struct gb_held_record *held, struct gb_error *err);
 
-/* A record of the last point that was taken elsewhere; its memory is moved. */
-bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
-                          struct gb_error *err);
-
 /* Computes the record up to the last point; the bits are those of a record taken there.
  * Nothing is done while it is written.  Where the run cannot be repeated, the record stays:
  * a checkpoint some points before.

@@ -12,7 +12,7 @@
 
 void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params)
 {
-    *states = (struct gb_kept_states){.p_pa = -INFINITY, .density = -INFINITY};
+    *states = (struct gb_kept_states){.params = params};
     (void)gb_keep_points_parse(params->snapshots_at, &states->marks, NULL);
 }
 
@@ -31,7 +31,8 @@ static bool reaches(const struct gb_kept_states *states, const struct gb_keep_po
 {
     const double before = mark->by_density ? states->density : states->p_pa;
     const double now = mark->by_density ? point->density : point->p_pa;
-    return point->branch == GB_BRANCH_LOAD && before < mark->value && now >= mark->value;
+    return point->branch == GB_BRANCH_LOAD &&
+           gb_keep_points_reached(mark, states->params, before, now);
 }
 
 char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size)

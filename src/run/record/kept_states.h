@@ -11,14 +11,15 @@
  * n-th point ("point-000021").  They are made of the record that is taken at each point
  * in any case. */
 struct gb_kept_states {
+    const struct gb_params *params;
     struct gb_keep_points marks;
-    double p_pa, density; /* highest so far while loading */
+    double p_pa, density; /* highest so far while loading; 0: no point yet */
 };
 
 /* Name of the state that is kept for a mark, without its ending. */
 char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size);
 
-/* The marks of checked params. */
+/* The marks of checked params, which must outlive it. */
 void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params);
 
 /* A point before the start or resume: its state is not kept. */

@@ -174,19 +174,25 @@ int64_t gb_run_journal_digest(const struct gb_params *params)
     return number;
 }
 
-/* Checkpoints of version 0.1 have no checksum, older ones no trajectory: none is written. */
+/* An item that checkpoints of earlier versions lack stays as it is. */
+static bool record_later(struct gb_record *record, const char *name,
+                         enum gb_record_type type, int columns, const char *unit,
+                         void *data, struct gb_error *err)
+{
+    return (record->loading && !gb_record_find(record, name)) ||
+           gb_record_array(record, name, type, 1, columns, unit, data, err);
+}
+
 static bool record_members(struct gb_run_journal *journal, struct gb_record *record,
                            struct gb_error *err)
 {
-    static const char sum[] = "journal/curve_sum", live[] = "journal/trajectory";
-    const bool missing = record->loading && !gb_record_find(record, sum);
     return gb_record_members(record, members, MEMBERS, journal, err) &&
-           (missing || gb_record_array(record, sum, GB_RECORD_INT64, 1, 1, "1",
-                                       &journal->extent.curve_sum, err)) &&
-           (record->loading && !gb_record_find(record, live)
-                ? true
-                : gb_record_array(record, live, GB_RECORD_INT64, 1, 4, "1",
-                                  &journal->live, err));
+           record_later(record, "journal/curve_sum", GB_RECORD_INT64, 1, "1",
+                        &journal->extent.curve_sum, err) &&
+           record_later(record, "journal/trajectory", GB_RECORD_INT64, 4, "1",
+                        &journal->live, err) &&
+           record_later(record, "journal/highest", GB_RECORD_DOUBLE, 2, "Pa or 1",
+                        journal->highest, err);
 }
 
 bool gb_run_journal_record(struct gb_run_journal *journal, struct gb_record *record,

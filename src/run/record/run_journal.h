@@ -12,7 +12,8 @@ struct gb_run_journal {
     struct gb_live_extent live;
     int64_t events;
     double seconds;
-    int64_t preset; /* digest of the parameters that determine the results */
+    double highest[2]; /* pressure, Pa, and density on loading, for kept states */
+    int64_t preset;    /* digest of the parameters that determine the results */
 };
 
 /* Digest of all parameters but those that change no result ([output], title, threads).  Keys

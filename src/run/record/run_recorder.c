@@ -26,6 +26,7 @@ struct gb_run_recorder {
     struct gb_run_journal journal; /* events and seconds as they grow */
     struct gb_held_record held;
     double written_at; /* seconds of the run at the last checkpoint */
+    int not_kept;      /* states of rows without a state, until an event names them */
 };
 
 static bool create(struct gb_run_recorder **out, const struct gb_params *params,
@@ -37,7 +38,7 @@ static bool create(struct gb_run_recorder **out, const struct gb_params *params,
     }
     recorder->params = *params;
     recorder->journal.preset = gb_run_journal_digest(params);
-    gb_kept_states_init(&recorder->states, params);
+    gb_kept_states_init(&recorder->states, &recorder->params);
     gb_live_export_init(&recorder->live, params);
     if (!gb_params_check(params, err) || !gb_model_init(&recorder->model, params, err)) {
         gb_alloc_free(recorder);
@@ -204,6 +205,8 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
     gb_live_export_resume(&recorder->live, gb_store_rundir(recorder->store)->held,
                           &recorder->journal.live);
     if (*experiment != NULL) {
+        recorder->states.p_pa = recorder->journal.highest[0];
+        recorder->states.density = recorder->journal.highest[1];
         gb_kept_states_pass(&recorder->states, gb_experiment_point(*experiment));
     }
     *out = recorder;
@@ -265,18 +268,14 @@ static void note_point(struct gb_run_recorder *recorder, double seconds)
     recorder->journal.extent = gb_store_extent(recorder->store);
     recorder->journal.live = recorder->live.extent;
     recorder->journal.seconds = seconds;
+    recorder->journal.highest[0] = recorder->states.p_pa;
+    recorder->journal.highest[1] = recorder->states.density;
     recorder->held.journal = recorder->journal;
 }
 
 static bool checkpoint_due(const struct gb_run_recorder *recorder, double seconds)
 {
     return seconds - recorder->written_at >= recorder->params.checkpoint_every_s;
-}
-
-bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point *point,
-                         struct gb_error *err)
-{
-    return gb_store_point(recorder->store, point, err);
 }
 
 /* The kept state; its frame comes before the journal, which counts it. */
@@ -341,21 +340,18 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
     return true;
 }
 
-bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
-                           const struct gb_point *points, int64_t count,
-                           struct gb_record *record, struct gb_error *err)
+bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point *point,
+                         struct gb_error *err)
 {
-    for (int64_t i = 0; i < count; i++) {
-        if (!gb_store_point(recorder->store, &points[i], err)) {
-            return false;
-        }
-        gb_kept_states_pass(&recorder->states, &points[i]);
+    struct gb_kept_names names;
+    if (!gb_store_point(recorder->store, point, err)) {
+        return false;
     }
-    if (count == 0 || !recorder->writer) {
-        return true;
-    }
-    note_point(recorder, points[count - 1].seconds);
-    return gb_held_record_adopt(&recorder->held, record, err);
+    gb_kept_states_due(&recorder->states, point, gb_run_recorder_points(recorder),
+                       &names);
+    gb_kept_states_pass(&recorder->states, point);
+    recorder->not_kept += names.count;
+    return true;
 }
 
 bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
@@ -428,6 +424,14 @@ bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *er
 
 bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size)
 {
+    if (recorder->not_kept > 0) {
+        snprintf(text, size,
+                 "output.snapshots_at: %d states are not kept: their points come before "
+                 "the state with which this run begins",
+                 recorder->not_kept);
+        recorder->not_kept = 0;
+        return true;
+    }
     const char *name = gb_store_restored(recorder->store);
     if (name == NULL) {
         return gb_live_export_told(&recorder->live, text, size);

@@ -56,19 +56,14 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
 /* A row without a state: of a point before the state that the run begins with. */
 bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point *point,
                          struct gb_error *err);
-/* Points recorded before there was a directory: their rows, and the record taken at the
- * last one, whose memory is moved. */
-bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
-                           const struct gb_point *points, int64_t count,
-                           struct gb_record *record, struct gb_error *err);
 bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
                            const char *text, struct gb_error *err);
 
 /* Compares curve.csv and events.log to what was recorded, before the end of a run; what
  * another program has changed is written again.  Errors: GB_ERR_MACHINE. */
 bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *err);
-/* An event about a file that was written again, or a frame that was left out, once; false:
- * none. */
+/* An event about a file that was written again, a frame that was left out, or states of
+ * rows without one, once; false: none. */
 bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size);
 
 enum gb_run_recorder_when {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "scene/tolerances.h"
 
 static const int64_t every_most = 1000000;
 static const double pressure_least = 1.0, pressure_most = 1e12;
@@ -69,4 +70,13 @@ bool gb_keep_points_parse(const char *text, struct gb_keep_points *points,
     }
     g_strfreev(entries);
     return good;
+}
+
+bool gb_keep_points_reached(const struct gb_keep_point *point,
+                            const struct gb_params *params, double before, double now)
+{
+    const double of_leg = params->path[0] != '\0' ? GB_PATH_END_SHARE : 0.0;
+    const double share = point->by_density ? GB_PATH_STRAIN_TOLERANCE : of_leg;
+    const double enough = point->value * (1.0 - share);
+    return before < enough && now >= enough;
 }

@@ -22,4 +22,10 @@ struct gb_keep_points {
 bool gb_keep_points_parse(const char *text, struct gb_keep_points *points,
                           struct gb_error *err);
 
+/* Whether a run reaches the point: its pressure (Pa) or density, the largest so far on
+ * loading, rises from before to now.  Ends of loading are points, so a density counts within
+ * rounding, and a pressure of a run by legs within their tolerance. */
+bool gb_keep_points_reached(const struct gb_keep_point *point,
+                            const struct gb_params *params, double before, double now);
+
 #endif

@@ -107,8 +107,9 @@ struct gb_loading_mode {
     /* Share of the loading that is done, 0 to 1; pressure (E) and density of the last
      * recorded point. */
     double (*progress)(const struct gb_loading *loading, double pressure, double density);
-    /* Goals that a loading which has ended never reached, as one line into text; false:
-     * none.  NULL where a mode ends by its goals or stops. */
+    /* Goals that a loading which has ended never reached, or has exceeded by more than their
+     * tolerance, as one line into text; false: none.  NULL where a mode ends exactly at its
+     * goals or stops. */
     bool (*missed)(const struct gb_loading *loading, char *text, size_t size);
     /* Stage of the run and how far it has come, right after an evaluation; coordination and
      * height of the powder stay unknown where the mode does not measure them.  NULL where

@@ -100,6 +100,12 @@ static bool is_not_quasistatic(const struct gb_die_stages_report *now)
                : now->wanted > 0.0;
 }
 
+/* Equal forces are no equilibrium where a punch is braked or accelerated. */
+static bool carries_the_load(const struct gb_die_stages_report *now)
+{
+    return fabs(now->carried - now->wanted) <= GB_DIE_GOAL_TOLERANCE * now->wanted;
+}
+
 /* One line when the point just recorded is the first that is out of equilibrium, or in
  * equilibrium again. */
 static enum gb_step_outcome after_point(struct gb_loading *loading,
@@ -108,7 +114,9 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
 {
     char text[GB_EVENT_TEXT];
     const struct gb_die_stages_report now = stages_report(loading);
-    const bool not_quasistatic = is_not_quasistatic(&now);
+    const bool not_quasistatic =
+        is_not_quasistatic(&now) ||
+        (own(loading)->not_quasistatic && !carries_the_load(&now));
     (void)err;
     if (loading_stage(&now) != GB_LOADING_LOAD) {
         return GB_STEP_MORE;
@@ -183,23 +191,30 @@ static double progress(const struct gb_loading *loading, double pressure, double
 }
 
 /* The ramp of the punch ends by time, whatever the powder carries: never enough, or once,
- * under a punch that bounces. */
+ * under a punch that bounces; or more, under one that does not stop. */
 static bool missed(const struct gb_loading *loading, char *text, size_t size)
 {
     const struct die_loading *die = (const struct die_loading *)(const void *)loading;
     char until[64], carried[64];
     const double wanted = loading->params->until_pressure_pa,
-                 enough = wanted * (1.0 - GB_DIE_GOAL_TOLERANCE),
-                 scale = loading->model->pascal_per_stress;
-    const bool never = scale * die->highest < enough;
+                 scale = loading->model->pascal_per_stress,
+                 highest = scale * die->highest, last = scale * die->last,
+                 enough = wanted * (1.0 - GB_DIE_GOAL_TOLERANCE);
+    const bool never =
+        highest<enough, exceeded = highest> wanted * (1.0 + GB_DIE_GOAL_TOLERANCE);
     gb_units_format_short(wanted, GB_DIM_PRESSURE, 6, until, sizeof until);
-    gb_units_format_short(scale * (never ? die->highest : die->last), GB_DIM_PRESSURE, 4,
-                          carried, sizeof carried);
-    snprintf(text, size,
-             "not reached: loading.until = %s; the powder carries %s%s (a longer "
-             "loading.time is nearer to equilibrium)",
-             until, never ? "at most " : "", carried);
-    return never || scale * die->last < enough;
+    gb_units_format_short(never || exceeded ? highest : last, GB_DIM_PRESSURE, 4, carried,
+                          sizeof carried);
+    snprintf(
+        text, size,
+        "%s: loading.until = %s; the powder %s %s (a longer loading.time%s is nearer "
+        "to equilibrium)",
+        exceeded ? "exceeded" : "not reached", until,
+        exceeded ? "carried up to"
+        : never  ? "carries at most"
+                 : "carries",
+        carried, exceeded ? " or a lighter punch" : "");
+    return never || exceeded || last < enough;
 }
 
 static void stage(const struct gb_loading *loading, struct gb_stage_report *report)

@@ -310,9 +310,8 @@ static bool missed(const struct gb_loading *loading, char *text, size_t size)
     double pressure[3];
     gb_world_measure_normal_pressures(loading->world, pressure);
     return gb_quasistatic_missed(
-        &view(loading)->schedule, loading->params,
-        gb_quasistatic_pressure(&view(loading)->schedule, pressure) *
-            loading->model->pascal_per_stress,
+        &view(loading)->schedule, loading->params, loading->model->pascal_per_stress,
+        gb_quasistatic_pressure(&view(loading)->schedule, pressure),
         gb_world_measure_density(loading->world), text, size);
 }
 

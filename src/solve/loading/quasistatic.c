@@ -43,6 +43,14 @@ bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record
                            err)) {
         return false;
     }
+    const bool missing =
+        record->loading && !gb_record_find(record, "load/exceeded"); /* an older record */
+    if (!missing && (!gb_record_array(record, "load/exceeded", GB_RECORD_DOUBLE, 1, 1,
+                                      "E", &load->exceeded, err) ||
+                     !gb_record_array(record, "load/exceeded_by", GB_RECORD_DOUBLE, 1, 1,
+                                      "1", &load->exceeded_by, err))) {
+        return false;
+    }
     if (load->next_unload < 0 || load->next_unload > load->unload_count ||
         load->branch < -1 || load->branch > load->next_unload) {
         return gb_error_set(err, GB_ERR_INPUT, "load/branch: is out of range");
@@ -92,6 +100,26 @@ static bool unloaded(struct gb_quasistatic *load, double pressure)
     return done || load->endless;
 }
 
+/* False where there is no target: infinite. */
+static bool exceeds(double target, double pressure)
+{
+    return pressure - target > fmax(GB_TARGET_EXCESS * target, GB_TARGET_EXCESS_STRESS);
+}
+
+/* An unloading branch begins at this pressure. */
+static void begin_unloading(struct gb_quasistatic *load, double pressure)
+{
+    const double target = load->unload_from[load->next_unload];
+    const double excess = pressure / target - 1.0;
+    if (exceeds(target, pressure) && excess > load->exceeded_by) {
+        load->exceeded = target;
+        load->exceeded_by = excess;
+    }
+    load->branch = ++load->next_unload;
+    load->top_pressure = pressure;
+    load->expansions = 0;
+}
+
 enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
                                               const double pressure[3], double density,
                                               double factor[3])
@@ -108,9 +136,7 @@ enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
     load->branch = 0;
     if (load->next_unload < load->unload_count &&
         p >= load->unload_from[load->next_unload]) {
-        load->branch = ++load->next_unload;
-        load->top_pressure = p;
-        load->expansions = 0;
+        begin_unloading(load, p);
         gb_compressed_axes_scale(&load->axes, expansion(load, p), factor);
         return GB_QUASISTATIC_UNLOAD;
     }
@@ -149,26 +175,49 @@ static void name_unloadings(const struct gb_quasistatic *load,
     }
 }
 
-bool gb_quasistatic_missed(const struct gb_quasistatic *load,
-                           const struct gb_params *params, double pressure_pa,
-                           double density, char *text, size_t size)
+static void add_excess(const char *key, double target_pa, double excess, char *text,
+                       size_t size)
 {
-    char goals[256] = "", at[64];
-    const bool until = params->until_pressure_pa > pressure_pa;
+    char target[64];
+    const size_t used = strlen(text);
+    gb_units_format_short(target_pa, GB_DIM_PRESSURE, 6, target, sizeof target);
+    snprintf(text + used, size - used, "%s%s = %s by %.3g %%", used > 0 ? ", " : "", key,
+             target, 100.0 * excess);
+}
+
+bool gb_quasistatic_missed(const struct gb_quasistatic *load,
+                           const struct gb_params *params, double pascal_per_stress,
+                           double pressure, double density, char *text, size_t size)
+{
+    char unreached[256] = "", exceeded[256] = "", at[64];
+    const double until_pa = params->until_pressure_pa; /* NaN: until a density */
+    const double pressure_pa = pressure * pascal_per_stress;
+    const bool until = until_pa > pressure_pa;
     if (until) {
-        gb_units_format_short(params->until_pressure_pa, GB_DIM_PRESSURE, 6, at,
-                              sizeof at);
-        snprintf(goals, sizeof goals, "loading.until = %s%s", at,
+        gb_units_format_short(until_pa, GB_DIM_PRESSURE, 6, at, sizeof at);
+        snprintf(unreached, sizeof unreached, "loading.until = %s%s", at,
                  load->next_unload < load->unload_count ? ", " : "");
     }
-    name_unloadings(load, params, goals, sizeof goals);
+    name_unloadings(load, params, unreached, sizeof unreached);
+    if (exceeds(load->until_pressure, pressure)) {
+        add_excess("loading.until", until_pa, pressure_pa / until_pa - 1.0, exceeded,
+                   sizeof exceeded);
+    }
+    if (load->exceeded_by > 0.0) {
+        add_excess("loading.unload_from", load->exceeded * pascal_per_stress,
+                   load->exceeded_by, exceeded, sizeof exceeded);
+    }
     text[0] = '\0';
-    if (goals[0] == '\0') {
+    if (unreached[0] == '\0' && exceeded[0] == '\0') {
         return false;
     }
     gb_units_format_short(pressure_pa, GB_DIM_PRESSURE, 4, at, sizeof at);
-    snprintf(text, size, "not reached: %s; ended at %s, density %.4f%s", goals, at,
-             density, until ? " (all space is filled)" : "");
+    snprintf(text, size, "%s%s%s%s%s; ended at %s, density %.4f%s%s",
+             unreached[0] != '\0' ? "not reached: " : "", unreached,
+             unreached[0] != '\0' && exceeded[0] != '\0' ? "; " : "",
+             exceeded[0] != '\0' ? "exceeded: " : "", exceeded, at, density,
+             until ? " (all space is filled)" : "",
+             exceeded[0] != '\0' ? " (a smaller loading.step comes nearer)" : "");
     return true;
 }
 

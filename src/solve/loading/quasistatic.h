@@ -30,6 +30,9 @@ struct gb_quasistatic {
     double last_expansion; /* relative growth of the edges in the last unloading step */
     int expansions;        /* steps of the branch under way */
     bool endless;          /* the last branch was given up with pressure left */
+    /* Unloading that began furthest above its pressure, by more than its tolerance: that
+     * pressure, and the present one; 0: none */
+    double exceeded, exceeded_by;
 };
 
 void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *model);
@@ -55,12 +58,12 @@ void gb_quasistatic_recover(struct gb_quasistatic *load);
 double gb_quasistatic_pressure(const struct gb_quasistatic *load,
                                const double pressure[3]);
 
-/* The goals of params that a schedule which has ended, at this pressure (Pa) and density,
- * never reached: loading.until, pressures of loading.unload_from.  One line into text;
- * false: none. */
+/* The goals of params that a schedule which has ended, at this pressure (E) and density,
+ * never reached or has exceeded by more than its tolerance: loading.until, pressures of
+ * loading.unload_from.  One line into text; false: none. */
 bool gb_quasistatic_missed(const struct gb_quasistatic *load,
-                           const struct gb_params *params, double pressure_pa,
-                           double density, char *text, size_t size);
+                           const struct gb_params *params, double pascal_per_stress,
+                           double pressure, double density, char *text, size_t size);
 
 /* Share of the schedule that is done, 0..1, by the logarithm of density towards
  * until_density, or of the pressure (loading branch only). */

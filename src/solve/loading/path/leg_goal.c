@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/portable.h"
 #include "scene/tolerances.h"
 #include "solve/loading/path/leg_end.h"
 #include "solve/loading/path/leg_held.h"
@@ -93,6 +94,45 @@ bool gb_leg_goal_reached(const struct gb_leg_run *run, const struct gb_leg *leg,
     return false;
 }
 
+/* Beyond the end by less than this is no miss. */
+static double allowed_excess(const struct gb_leg_end *end, double largest)
+{
+    switch (end->kind) {
+    case GB_LEG_END_STEPS:
+        return INFINITY;
+    case GB_LEG_END_STRAIN:
+        return GB_PATH_BEYOND * GB_PATH_END_SHARE * fabs(end->value);
+    case GB_LEG_END_DENSITY: /* a difference of logarithms */
+        return GB_PATH_BEYOND * GB_PATH_END_SHARE;
+    default:
+        return GB_PATH_BEYOND * gb_leg_end_tolerance(end, largest);
+    }
+}
+
+static bool exceeds(const struct gb_leg_run *run, const struct gb_leg *leg, int e)
+{
+    const double past = run->sense[e] * (run->value[e] - gb_leg_end_target(&leg->end[e]));
+    return past > allowed_excess(&leg->end[e], run->largest);
+}
+
+void gb_leg_goal_note_excess(struct gb_leg_run *run, const struct gb_leg *leg, int e)
+{
+    const int first = leg->cycles > 0 ? e : 0;
+    const int last = leg->cycles > 0 ? e : leg->end_count - 1;
+    for (int k = first; k <= last; k++) {
+        if (!exceeds(run, leg, k)) {
+            continue;
+        }
+        if (run->exceeded == 0) {
+            run->exceeded_leg = run->leg;
+            run->exceeded_end = k;
+            run->exceeded_value = run->value[k];
+        }
+        run->exceeded++;
+        return;
+    }
+}
+
 /* The leg presses the packing together at given strains: any pressure is reached. */
 static bool densifies(const struct gb_leg *leg, double sign)
 {
@@ -116,6 +156,26 @@ static const char *end_name(const struct gb_leg_end *end)
     };
     return end->kind == GB_LEG_END_STRESS ? gb_path_component_name(end->of)
                                           : names[end->kind];
+}
+
+void gb_leg_goal_excess(const struct gb_leg_run *run, const struct gb_model *model,
+                        char *text, size_t size)
+{
+    const struct gb_leg *leg = &model->path.leg[run->exceeded_leg];
+    const struct gb_leg_end *end = &leg->end[run->exceeded_end];
+    double value = run->exceeded_value;
+    const char *unit = "";
+    if (end->kind == GB_LEG_END_DENSITY) {
+        value = gb_portable_exp(value);
+    } else if (end->kind == GB_LEG_END_STRAIN) {
+        value *= 100.0;
+        unit = " %";
+    } else if (gb_leg_end_is_stress(end) && end->kind != GB_LEG_END_RATIO) {
+        value *= 1e-6 * model->pascal_per_stress;
+        unit = " MPa";
+    }
+    snprintf(text, size, "exceeded: leg %d (%s) ends at %s = %.4g%s",
+             (int)run->exceeded_leg + 1, leg->text, end_name(end), value, unit);
 }
 
 /* The stress that ends the leg has not risen over a long strain: it never will.  Legs with

@@ -1,6 +1,7 @@
 #include "solve/loading/path/leg_run.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "scene/tolerances.h"
@@ -29,6 +30,30 @@ void gb_leg_run_init(struct gb_leg_run *run, const struct gb_model *model)
     *run = (struct gb_leg_run){.step_most = model->strain_step,
                                .step = model->strain_step,
                                .identity = identity(&model->path)};
+}
+
+/* Records of earlier versions have none. */
+static bool record_exceeded(struct gb_leg_run *run, struct gb_record *record,
+                            struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_leg_run, member)
+    static const struct gb_record_member members[] = {
+        {"path/exceeded", GB_RECORD_INT32, 1, AT(exceeded), "1"},
+        {"path/exceeded_leg", GB_RECORD_INT32, 1, AT(exceeded_leg), "1"},
+        {"path/exceeded_end", GB_RECORD_INT32, 1, AT(exceeded_end), "1"},
+        {"path/exceeded_value", GB_RECORD_DOUBLE, 1, AT(exceeded_value), "E or 1"},
+    };
+#undef AT
+    return (record->loading && !gb_record_find(record, "path/exceeded")) ||
+           gb_record_members(record, members, sizeof members / sizeof members[0], run,
+                             err);
+}
+
+static bool names_an_end(const struct gb_leg_run *run, const struct gb_path *path)
+{
+    return run->exceeded_leg >= 0 && run->exceeded_leg < path->count &&
+           run->exceeded_end >= 0 &&
+           run->exceeded_end < path->leg[run->exceeded_leg].end_count;
 }
 
 bool gb_leg_run_record(struct gb_leg_run *run, const struct gb_model *model,
@@ -68,8 +93,14 @@ bool gb_leg_run_record(struct gb_leg_run *run, const struct gb_model *model,
                            err)) {
         return false;
     }
+    if (!record_exceeded(run, record, err)) {
+        return false;
+    }
     if (run->identity != identity(&model->path)) {
         gb_leg_run_init(run, model); /* another path: from its first leg on */
+    }
+    if (run->exceeded > 0 && !names_an_end(run, &model->path)) {
+        return gb_error_set(err, GB_ERR_INPUT, "path/exceeded_leg: is out of range");
     }
     if (run->leg < 0 || run->leg > model->path.count || !(run->step > 0.0)) {
         return gb_error_set(err, GB_ERR_INPUT, "path/leg: is out of range");
@@ -185,8 +216,11 @@ enum gb_leg_run_order gb_leg_run_next(struct gb_leg_run *run,
     if (run->steps > 0) {
         gb_leg_goal_follow(run, model, density);
     }
-    if (gb_leg_goal_reached(run, leg, run->reversals % 2) &&
-        (leg->cycles == 0 || !reverse(run, model, density))) {
+    const bool reached = gb_leg_goal_reached(run, leg, run->reversals % 2);
+    if (reached) {
+        gb_leg_goal_note_excess(run, leg, run->reversals % 2);
+    }
+    if (reached && (leg->cycles == 0 || !reverse(run, model, density))) {
         return next_leg(run);
     }
     const int e = leg->cycles > 0 ? run->reversals % 2 : 0;
@@ -237,6 +271,22 @@ void gb_leg_run_skip(struct gb_leg_run *run)
 int gb_leg_run_number(const struct gb_leg_run *run)
 {
     return run->approaching ? 0 : run->begun;
+}
+
+bool gb_leg_run_missed(const struct gb_leg_run *run, const struct gb_model *model,
+                       char *text, size_t size)
+{
+    char more[48] = "";
+    if (run->exceeded == 0) {
+        return false;
+    }
+    if (run->exceeded > 1) {
+        snprintf(more, sizeof more, "; %d more", (int)run->exceeded - 1);
+    }
+    gb_leg_goal_excess(run, model, text, size);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s", more);
+    return true;
 }
 
 double gb_leg_run_progress(const struct gb_leg_run *run, const struct gb_model *model)

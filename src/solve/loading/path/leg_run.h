@@ -43,6 +43,9 @@ struct gb_leg_run {
     double from[2];                 /* those at which the way to the ends began */
     double slope[2];      /* of that value against the leading strain; 0: unknown */
     double best, best_at; /* largest value of the first end, and where */
+    int32_t exceeded;     /* legs that went past their ends, and the first of them: */
+    int32_t exceeded_leg, exceeded_end;
+    double exceeded_value;
     struct gb_strain_tangent affine, tangent, small;
 };
 
@@ -76,6 +79,10 @@ void gb_leg_run_skip(struct gb_leg_run *run);
 /* Number of the leg of a recorded point, from 1; 0 before the first one, and while held
  * stresses are brought to their values. */
 int gb_leg_run_number(const struct gb_leg_run *run);
+/* Legs that went past their ends by more than GB_PATH_BEYOND tolerances, as one line into
+ * text; false: none. */
+bool gb_leg_run_missed(const struct gb_leg_run *run, const struct gb_model *model,
+                       char *text, size_t size);
 /* Share of the path that is done, 0 to 1. */
 double gb_leg_run_progress(const struct gb_leg_run *run, const struct gb_model *model);
 

@@ -324,6 +324,11 @@ static double progress(const struct gb_loading *loading, double pressure, double
     return gb_leg_run_progress(&view(loading)->legs, loading->model);
 }
 
+static bool missed(const struct gb_loading *loading, char *text, size_t size)
+{
+    return gb_leg_run_missed(&view(loading)->legs, loading->model, text, size);
+}
+
 const struct gb_loading_mode gb_loading_path = {
     .size = sizeof(struct path_loading),
     .build = build,
@@ -335,4 +340,5 @@ const struct gb_loading_mode gb_loading_path = {
     .record = record_path,
     .report = report,
     .progress = progress,
+    .missed = missed,
 };
