@@ -184,10 +184,24 @@ static double round_to(double value, int decimals)
     return fabs(rounded) < 0.5 * unit ? 0.0 : rounded;
 }
 
+char *gb_number_shown(const char *format, double value, char buffer[GB_NUMBER_MAX])
+{
+    if (isfinite(value)) {
+        g_snprintf(buffer, GB_NUMBER_MAX, format, value);
+    } else {
+        g_strlcpy(buffer, "-", GB_NUMBER_MAX);
+    }
+    return buffer;
+}
+
 char *gb_number_error(double value, double error, int digits, const char *sign,
                       char buffer[GB_NUMBER_ERROR_MAX])
 {
-    if (!isfinite(value) || !(error > 0.0) || isinf(error)) {
+    if (!isfinite(value)) {
+        g_strlcpy(buffer, "-", GB_NUMBER_ERROR_MAX);
+        return buffer;
+    }
+    if (!(error > 0.0) || isinf(error)) {
         g_snprintf(buffer, GB_NUMBER_ERROR_MAX, "%.*g", digits + 2, value);
         return buffer;
     }

@@ -9,12 +9,16 @@ enum { GB_NUMBER_MAX = 32 };
  * where it can be: a row of a curve has a dozen.  Returns buffer. */
 char *gb_number_write(double value, char buffer[GB_NUMBER_MAX]);
 
+/* Writes a number of a table for people by a format with one double, as "%.3f"; "-" where it
+ * is not finite.  Returns buffer. */
+char *gb_number_shown(const char *format, double value, char buffer[GB_NUMBER_MAX]);
+
 /* Longest text of a number with its error, with its end. */
 enum { GB_NUMBER_ERROR_MAX = 96 };
 
 /* Writes "0.4062 +- 0.0065": the error with `digits` significant digits, the value to the
  * same decimal place, `sign` between them.  An error that is zero or no number is left out,
- * and the value has two digits more.  Values far from 1 have a common power of ten:
+ * and the value has two digits more; a value that is not finite is "-".  Values far from 1 have a common power of ten:
  * "(1.23 +- 0.05)e-09".  Returns buffer. */
 char *gb_number_error(double value, double error, int digits, const char *sign,
                       char buffer[GB_NUMBER_ERROR_MAX]);

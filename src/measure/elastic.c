@@ -152,6 +152,27 @@ struct gb_elastic_axial gb_elastic_project(const double c[6][6])
     return out;
 }
 
+/* Pressures by a strain of the normal components: both change sign together. */
+static void press(const double c[6][6], const double strain[3], double slope[2])
+{
+    double p[3] = {0.0, 0.0, 0.0};
+    for (int m = 0; m < 3; m++) {
+        for (int n = 0; n < 3; n++) {
+            p[m] += c[m][n] * strain[n];
+        }
+    }
+    slope[0] = (p[0] + p[1] + p[2]) / 3.0;
+    slope[1] = p[2] - 0.5 * (p[0] + p[1]);
+}
+
+void gb_elastic_plane(const double c[6][6], double by_volume[2], double by_shear[2])
+{
+    static const double volume[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+    static const double shear[3] = {-0.5, -0.5, 1.0};
+    press(c, volume, by_volume);
+    press(c, shear, by_shear);
+}
+
 struct gb_elastic_waves gb_elastic_wave_speeds(const struct gb_elastic_axial *axial,
                                                double density_kg_m3)
 {

@@ -33,6 +33,10 @@ struct gb_elastic_waves {
 /* NaN where C has no inverse, as in 2D. */
 struct gb_elastic_averages gb_elastic_average(const double c[6][6]);
 struct gb_elastic_axial gb_elastic_project(const double c[6][6]);
+/* Slopes of p = tr/3 and q = p_z - (p_x + p_y)/2, pressures positive in compression, by the
+ * volume strain v alone and by the shear strain w alone (measure/yield_point.h), with
+ * e_x = e_y and no shear of the axes. */
+void gb_elastic_plane(const double c[6][6], double by_volume[2], double by_shear[2]);
 /* C in Pa, mass density in kg/m3, speeds in m/s; NaN for a negative C. */
 struct gb_elastic_waves gb_elastic_wave_speeds(const struct gb_elastic_axial *axial,
                                                double density_kg_m3);

@@ -3,24 +3,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-void gb_yield_offset_slopes(const struct gb_yield_path *path, const double *by,
-                            double range, double slope[2])
-{
-    double squares = 0.0;
-    slope[0] = slope[1] = 0.0;
-    for (size_t i = 1; i < path->count; i++) {
-        const double strain = by[i] - by[0];
-        if (i > 1 && fabs(strain) > range) {
-            break;
-        }
-        squares += strain * strain;
-        slope[0] += strain * (path->p[i] - path->p[0]);
-        slope[1] += strain * (path->q[i] - path->q[0]);
-    }
-    slope[0] /= squares;
-    slope[1] /= squares;
-}
-
 bool gb_yield_offset_elastic(struct gb_yield_elastic *elastic, const double by_volume[2],
                              const double by_shear[2])
 {
@@ -86,14 +68,14 @@ static bool reach(const struct gb_yield_path *path,
 
 bool gb_yield_offset_find(const struct gb_yield_path *path,
                           const struct gb_yield_elastic *elastic, double offset,
-                          struct gb_yield_point *point)
+                          double flow_end, struct gb_yield_point *point)
 {
     struct state at, first, last;
     if (!reach(path, elastic, offset, &at)) {
         return false;
     }
-    reach(path, elastic, (1.0 - GB_YIELD_FLOW_SHARE) * offset, &first);
-    reach(path, elastic, (1.0 + GB_YIELD_FLOW_SHARE) * offset, &last);
+    reach(path, elastic, GB_YIELD_FLOW_BEGIN * offset, &first);
+    reach(path, elastic, flow_end * offset, &last);
     point->p_pa = at.p;
     point->q_pa = at.q;
     point->flow_volume = last.volume - first.volume;

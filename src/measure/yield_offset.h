@@ -19,23 +19,19 @@ struct gb_yield_elastic {
     double compliance[2][2];
 };
 
-/* Slopes of p and q against a strain along a path in which that strain alone grows, by least
- * squares through row 0 over the rows up to `range`; by: the strain, volume or shear. */
-void gb_yield_offset_slopes(const struct gb_yield_path *path, const double *by,
-                            double range, double slope[2]);
-/* Compliance from the slopes along a path of volume strain and one of shear.  False: they
- * are no stiffness. */
+/* Compliance from the slopes of p and q by volume strain alone and by shear strain alone.
+ * False: they are no stiffness. */
 bool gb_yield_offset_elastic(struct gb_yield_elastic *elastic, const double by_volume[2],
                              const double by_shear[2]);
 
 /* Where the plastic strain, total less elastic, first reaches the offset, as the larger of
  * |volume| and |shear|, by linear interpolation between rows.  Fills stresses (unit of the
  * path), flow and direction.  The flow is the increment of plastic strain while its measure
- * grows from (1 - GB_YIELD_FLOW_SHARE) to (1 + GB_YIELD_FLOW_SHARE) of the offset, or to the
- * end of the path.  False: the path ends before the offset. */
-#define GB_YIELD_FLOW_SHARE 0.5
+ * grows from GB_YIELD_FLOW_BEGIN to flow_end (1 or more) of the offset, or to the end of the
+ * path.  False: the path ends before the offset. */
+#define GB_YIELD_FLOW_BEGIN 0.5
 bool gb_yield_offset_find(const struct gb_yield_path *path,
                           const struct gb_yield_elastic *elastic, double offset,
-                          struct gb_yield_point *point);
+                          double flow_end, struct gb_yield_point *point);
 
 #endif

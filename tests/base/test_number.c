@@ -125,7 +125,8 @@ static void test_error(void)
     }
     g_assert_cmpstr(gb_number_error(3.14159, NAN, 2, "+-", buffer), ==, "3.142");
     g_assert_cmpstr(gb_number_error(3.14159, INFINITY, 2, "+-", buffer), ==, "3.142");
-    g_assert_cmpstr(gb_number_error(NAN, 0.1, 2, "+-", buffer), ==, "nan");
+    g_assert_cmpstr(gb_number_error(NAN, 0.1, 2, "+-", buffer), ==, "-");
+    g_assert_cmpstr(gb_number_error(-INFINITY, 0.1, 2, "+-", buffer), ==, "-");
     g_assert_cmpstr(gb_number_error(7.0, 0.25, 2, "\u00b1", buffer), ==,
                     "7.00\u00b1"
                     "0.25");
@@ -134,11 +135,22 @@ static void test_error(void)
     g_assert_cmpuint(strlen(buffer), <, GB_NUMBER_ERROR_MAX);
 }
 
+/* A number that is not there is a dash, whatever its sign. */
+static void test_shown(void)
+{
+    char buffer[GB_NUMBER_MAX];
+    g_assert_cmpstr(gb_number_shown("%.3f", 1.23456, buffer), ==, "1.235");
+    g_assert_cmpstr(gb_number_shown("%.3f", NAN, buffer), ==, "-");
+    g_assert_cmpstr(gb_number_shown("%.3f", -sqrt(-1.0), buffer), ==, "-");
+    g_assert_cmpstr(gb_number_shown("%g", -INFINITY, buffer), ==, "-");
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/number/texts", test_texts);
     g_test_add_func("/number/error", test_error);
+    g_test_add_func("/number/shown", test_shown);
     g_test_add_func("/number/reads-back", test_reads_back);
     return g_test_run();
 }

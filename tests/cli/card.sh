@@ -19,5 +19,12 @@ is 'a die has no card' refused "$greenbody" card p3-hertz-mu0 --densities 0.5,0.
 mkdir there
 is 'an existing folder is kept' refused "$greenbody" card p1-set2-9.7nm --out there
 is 'nothing is made' [ "$(ls -A | grep -c card)" -eq 0 ]
+
+is 'a card of two densities' sh -c '"$0" card default particles.count=60 structure.base=auto \
+    --densities 0.45,0.55 --replicas 3 --directions 15 --out two >stdout 2>stderr' "$greenbody"
+is 'says nothing of numbers that are not there' [ "$(cat stdout two/* | grep -aciw nan)" -eq 0 ]
+is 'but shows a dash' grep -q 'at the same p_z -$' stdout
+is 'a surface that misses its points is named' \
+    [ "$(grep -c ': the surface is ' stdout)" -eq "$(grep -c '^# density' two/card.csv)" ]
 echo "1..$tests"
 exit $bad

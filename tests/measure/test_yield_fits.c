@@ -2,6 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
+#include "measure/elastic.h"
 #include "measure/fit/ellipse.h"
 #include "measure/fit/weibull.h"
 #include "measure/yield_offset.h"
@@ -38,18 +39,18 @@ static void test_perfectly_plastic(void)
     const struct gb_yield_path path = {p, q, v, w, ROWS, M_PI / 2.0};
     const struct gb_yield_elastic elastic = elastic_of();
     struct gb_yield_point point;
-    g_assert_true(gb_yield_offset_find(&path, &elastic, 1e-3, &point));
+    g_assert_true(gb_yield_offset_find(&path, &elastic, 1e-3, 1.5, &point));
     g_assert_cmpfloat_with_epsilon(point.q_pa, yield, 1e-12);
     g_assert_cmpfloat_with_epsilon(point.p_pa, 0.1, 1e-12);
     g_assert_cmpfloat_with_epsilon(point.flow_shear, 1e-3, 1e-9);
     g_assert_cmpfloat_with_epsilon(point.flow_volume, flow * 1e-3, 1e-9);
-    g_assert_false(gb_yield_offset_find(&path, &elastic, 0.02, &point));
+    g_assert_false(gb_yield_offset_find(&path, &elastic, 0.02, 1.5, &point));
 }
 
-/* An elastic path has no yield point, and its stiffness is found again. */
+/* An elastic path has no yield point; slopes without a stiffness are refused. */
 static void test_elastic(void)
 {
-    double p[ROWS], q[ROWS], v[ROWS], w[ROWS], slope[2];
+    double p[ROWS], q[ROWS], v[ROWS], w[ROWS];
     for (int i = 0; i < ROWS; i++) {
         v[i] = 1e-5 * i;
         w[i] = 0.02;
@@ -59,13 +60,34 @@ static void test_elastic(void)
     const struct gb_yield_path path = {p, q, v, w, ROWS, 0.0};
     const struct gb_yield_elastic elastic = elastic_of();
     struct gb_yield_point point;
-    g_assert_false(gb_yield_offset_find(&path, &elastic, 1e-6, &point));
-    gb_yield_offset_slopes(&path, v, 1e-3, slope);
-    g_assert_cmpfloat_with_epsilon(slope[0], bulk, 1e-9);
-    g_assert_cmpfloat_with_epsilon(slope[1], 0.4, 1e-9);
-    const double none[2] = {-1.0, 0.0};
+    g_assert_false(gb_yield_offset_find(&path, &elastic, 1e-6, 1.5, &point));
+    const double none[2] = {-1.0, 0.0}, slope[2] = {bulk, 0.4};
     struct gb_yield_elastic refused;
     g_assert_false(gb_yield_offset_elastic(&refused, none, slope));
+}
+
+/* An isotropic body, then one that is stiffer along z. */
+static void test_plane(void)
+{
+    static const double k = 5.0, g = 3.0, more = 0.9;
+    double c[6][6] = {{0.0}}, by_volume[2], by_shear[2];
+    for (int m = 0; m < 3; m++) {
+        for (int n = 0; n < 3; n++) {
+            c[m][n] = k - 2.0 / 3.0 * g + (m == n ? 2.0 * g : 0.0);
+        }
+        c[m + 3][m + 3] = g;
+    }
+    gb_elastic_plane((const double(*)[6])c, by_volume, by_shear);
+    g_assert_cmpfloat_with_epsilon(by_volume[0], k, 1e-12);
+    g_assert_cmpfloat_with_epsilon(by_volume[1], 0.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(by_shear[0], 0.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(by_shear[1], 3.0 * g, 1e-12);
+    c[2][2] += more;
+    gb_elastic_plane((const double(*)[6])c, by_volume, by_shear);
+    g_assert_cmpfloat_with_epsilon(by_volume[0], k + more / 9.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(by_volume[1], more / 3.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(by_shear[0], more / 3.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(by_shear[1], 3.0 * g + more, 1e-12);
 }
 
 static void test_ellipse(void)
@@ -119,6 +141,7 @@ static void test_weibull(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/yield/plane", test_plane);
     g_test_add_func("/yield/perfectly_plastic", test_perfectly_plastic);
     g_test_add_func("/yield/elastic", test_elastic);
     g_test_add_func("/yield/ellipse", test_ellipse);

@@ -8,7 +8,7 @@
 #include "common/scene.h"
 #include "common/tree.h"
 #include "study/yield/yield_files.h"
-#include "study/yield/yield_probe.h"
+#include "study/compact/offset_probe.h"
 
 static char *folder;
 
@@ -23,11 +23,11 @@ static void test_leg(void)
     char leg[GB_LEG_TEXT];
     struct gb_path path;
     struct gb_error err = {0};
-    gb_yield_probe_leg(0.0, 1.0, 0.03, leg, sizeof leg);
+    gb_offset_probe_leg(0.0, 1.0, 0.03, leg, sizeof leg);
     g_assert_true(gb_path_parse(&path, leg, 3, &err));
     g_assert_cmpint(path.leg[0].leading, ==, 2);
     g_assert_cmpfloat_with_epsilon(path.leg[0].component[0].value, -0.5, 1e-9);
-    gb_yield_probe_leg(-1.0, -1.0 / 6.0 + 1.0, 0.03, leg, sizeof leg);
+    gb_offset_probe_leg(-1.0, -1.0 / 6.0 + 1.0, 0.03, leg, sizeof leg);
     g_assert_true(gb_path_parse(&path, leg, 3, &err));
     g_assert_cmpint(path.leg[0].leading, ==, 0);
     g_assert_cmpfloat(path.leg[0].end[0].value, <, 0.0);

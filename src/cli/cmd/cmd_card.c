@@ -4,11 +4,13 @@
 
 #include <glib.h>
 
+#include "base/number.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "figures/card/card_page.h"
+#include "study/card/card_files.h"
 
 /* The options of the command line. */
 struct request {
@@ -82,13 +84,18 @@ static void print_result(const struct gb_card_study *study, const char *out)
                      study->seconds);
     for (int k = 0; k < GB_CARD_PATHS; k++) {
         const struct gb_card_misfit *misfit = &study->misfit[k];
+        char number[3][GB_NUMBER_MAX];
         gb_visible_print(
             stdout,
-            "%s path: misfit of p_x/p_z %.3f, of p_z %.1f %%, of density at the same "
-            "p_z %.4f\n",
-            gb_card_options_paths[k].name, misfit->ratio, 100.0 * misfit->pressure,
-            misfit->density);
+            "%s path: misfit of p_x/p_z %s, of p_z %s %%, of density at the same p_z %s\n",
+            gb_card_options_paths[k].name,
+            gb_number_shown("%.3f", misfit->ratio, number[0]),
+            gb_number_shown("%.1f", 100.0 * misfit->pressure, number[1]),
+            gb_number_shown("%.4f", misfit->density, number[2]));
     }
+    GString *misses = gb_card_files_misses(study);
+    gb_visible_put(stdout, misses->str);
+    g_string_free(misses, TRUE);
     gb_visible_print(stdout, "%s: card.csv, card.inp, card.html\n", out);
 }
 

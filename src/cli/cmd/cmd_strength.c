@@ -8,6 +8,7 @@
 #include "cli/compact_options.h"
 #include "cli/options.h"
 #include "cli/signals.h"
+#include "study/compact/study_text.h"
 #include "study/strength/strength_study.h"
 
 static void print_summary(const struct gb_strength_study *study)
@@ -18,15 +19,20 @@ static void print_summary(const struct gb_strength_study *study)
     for (guint i = 0; i < study->result->len; i++) {
         const struct gb_strength_result *r =
             &g_array_index(study->result, struct gb_strength_result, i);
-        char strength[GB_NUMBER_ERROR_MAX];
+        const struct gb_fit_value modulus = {.value = r->weibull.modulus,
+                                             .low = r->weibull.modulus_low,
+                                             .high = r->weibull.modulus_high};
+        char strength[GB_NUMBER_ERROR_MAX], strain[GB_NUMBER_MAX];
+        GString *weibull = g_string_new(NULL);
+        gb_study_text_interval(weibull, "", "%.3g", &modulus, 1.0);
         gb_number_error(1e-6 * r->strength_pa, 1e-6 * r->strength_error_pa, 2, " +- ",
                         strength);
-        gb_visible_print(stdout, "%7g %-3s  %-11s  %17s  %8.3g  %.3g (%.3g to %.3g)\n",
-                         r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
-                         r->mark.by_density ? "" : "MPa",
-                         gb_strength_options_tests[r->test].name, strength,
-                         100.0 * r->strain, r->weibull.modulus, r->weibull.modulus_low,
-                         r->weibull.modulus_high);
+        gb_visible_print(
+            stdout, "%7g %-3s  %-11s  %17s  %8s  %s\n",
+            r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
+            r->mark.by_density ? "" : "MPa", gb_strength_options_tests[r->test].name,
+            strength, gb_number_shown("%.3g", 100.0 * r->strain, strain), weibull->str);
+        g_string_free(weibull, TRUE);
     }
 }
 

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
 #include "figures/report/page.h"
 #include "study/card/card_files.h"
+#include "study/compact/study_text.h"
 
 enum { WIDTH = 900, HEIGHT = 640 };
 
@@ -55,8 +57,9 @@ static bool write_figure(const char *folder, const char *name, const char *file,
 
 static char *cell(const struct gb_fit_value *value, double factor)
 {
-    return g_strdup_printf("%.4g (%.4g to %.4g)", value->value * factor,
-                           value->low * factor, value->high * factor);
+    GString *text = g_string_new(NULL);
+    gb_study_text_interval(text, "", "%.4g", value, factor);
+    return g_string_free(text, FALSE);
 }
 
 static void add_parameters(struct gb_page *page, const struct gb_card_study *study)
@@ -89,29 +92,61 @@ static void add_parameters(struct gb_page *page, const struct gb_card_study *stu
     }
 }
 
+/* Where the surface misses its own points, or that it does not. */
+static void add_misses(struct gb_page *page, const struct gb_card_study *study)
+{
+    GString *text = gb_card_files_misses(study);
+    char **lines = g_strsplit(g_strchomp(text->str), "\n", 0);
+    if (lines[0] == NULL) {
+        gb_page_paragraph(page, "The surface meets its points within their 95 % "
+                                "intervals at every density.");
+    }
+    for (int i = 0; lines[i] != NULL; i++) {
+        char *line = g_strdup_printf("Poor fit at %s.", lines[i]);
+        gb_page_paragraph(page, line);
+        g_free(line);
+    }
+    g_strfreev(lines);
+    g_string_free(text, TRUE);
+}
+
+/* "p_z 5.0 %, density at the same p_z 0.0044 (largest 0.0081)" */
+static void add_misfit(GString *text, const struct gb_card_misfit *misfit,
+                       const char *pressure)
+{
+    char number[3][GB_NUMBER_MAX];
+    g_string_append_printf(text, "%s %s %%, density at the same %s %s (largest %s).",
+                           pressure,
+                           gb_number_shown("%.1f", 100.0 * misfit->pressure, number[0]),
+                           pressure, gb_number_shown("%.4f", misfit->density, number[1]),
+                           gb_number_shown("%.4f", misfit->density_most, number[2]));
+}
+
 static void add_test(struct gb_page *page, const struct gb_card_study *study)
 {
     const struct gb_card_misfit *uniaxial = &study->misfit[GB_CARD_UNIAXIAL];
-    const struct gb_card_misfit *isotropic = &study->misfit[GB_CARD_ISOTROPIC];
     static const char *const data[] = {"card_uniaxial.csv", "card_isotropic.csv", NULL};
     const bool own = study->options.path == GB_CARD_UNIAXIAL;
-    char *text = g_strdup_printf(
+    char number[2][GB_NUMBER_MAX];
+    GString *text = g_string_new(NULL);
+    g_string_append_printf(
+        text,
         "The card as a material, strained from the unloaded compact of the lowest density "
         "on, against the simulated pressing of the loose powder. Points of yield come from "
         "%s pressed compacts; p_x/p_z and the %s path are not fitted to. Misfit (rms) "
-        "between the densities %.3f and %.3f. Uniaxial: p_x/p_z %.3f (largest %.3f), p_z "
-        "%.1f %%, density at the same p_z %.4f (largest %.4f). Isotropic: p %.1f %%, "
-        "density at the same p %.4f (largest %.4f).",
+        "between the densities %.3f and %.3f. Uniaxial: p_x/p_z %s (largest %s), ",
         own ? "uniaxially" : "isotropically", own ? "isotropic" : "uniaxial",
-        study->compared_from, study->card.density[study->levels - 1], uniaxial->ratio,
-        uniaxial->ratio_most, 100.0 * uniaxial->pressure, uniaxial->density,
-        uniaxial->density_most, 100.0 * isotropic->pressure, isotropic->density,
-        isotropic->density_most);
+        study->compared_from, study->card.density[study->levels - 1],
+        gb_number_shown("%.3f", uniaxial->ratio, number[0]),
+        gb_number_shown("%.3f", uniaxial->ratio_most, number[1]));
+    add_misfit(text, uniaxial, "p_z");
+    g_string_append(text, " Isotropic: ");
+    add_misfit(text, &study->misfit[GB_CARD_ISOTROPIC], "p");
     gb_page_heading(page, "Test on uniaxial and isotropic pressing");
-    gb_page_paragraph(page, text);
+    gb_page_paragraph(page, text->str);
     gb_page_image(page, "uniaxial.png",
                   "p_x/p_z of uniaxial pressing, simulated and predicted.", data);
-    g_free(text);
+    g_string_free(text, TRUE);
 }
 
 static bool write_page(const struct gb_card_study *study, const struct gb_params *preset,
@@ -141,6 +176,7 @@ static bool write_page(const struct gb_card_study *study, const struct gb_params
     gb_page_heading(&page, "Yield surfaces");
     gb_page_image(&page, "surfaces.png", "Drucker-Prager cap fitted to the yield points.",
                   data);
+    add_misses(&page, study);
     gb_page_heading(&page, "Parameters");
     add_parameters(&page, study);
     gb_page_paragraph(&page, "The fragment for Abaqus is card.inp.");

@@ -174,20 +174,25 @@ static void take_values(struct gb_cap_fit *fit, const struct line *line,
     }
 }
 
-static double distance_rms(const struct gb_cap *cap, const struct gb_cap_side side[2])
+static struct gb_cap_fit_misses misses_of(const struct gb_cap *cap,
+                                          const struct gb_cap_side *side,
+                                          enum gb_cap_fit_side which)
 {
-    double sum = 0.0;
-    for (size_t i = 0; i < side[0].count; i++) {
-        const struct gb_yield_point *point = side[0].point[i];
-        const double off = fabs(point->q_pa) - cap->d - point->p_pa * tan(cap->beta);
-        sum += off * off;
+    const double slope = tan(cap->beta), count = (double)side->count;
+    struct gb_cap_fit_misses sum = {0.0, 0.0};
+    for (size_t i = 0; i < side->count; i++) {
+        const struct gb_yield_point *point = side->point[i];
+        double off = fabs(point->q_pa) - cap->d - point->p_pa * slope;
+        double error = hypot(point->q_error_pa, slope * point->p_error_pa);
+        if (which == GB_CAP_FIT_CAP) {
+            off = gb_cap_side_radius(cap, point) - cap->r * gb_cap_depth(cap);
+            error = gb_cap_side_radius_error(cap, point);
+        }
+        sum.distance += off * off;
+        sum.error += error * error;
     }
-    for (size_t i = 0; i < side[1].count; i++) {
-        const double off =
-            gb_cap_side_radius(cap, side[1].point[i]) - cap->r * gb_cap_depth(cap);
-        sum += off * off;
-    }
-    return sqrt(sum / (double)(side[0].count + side[1].count));
+    return (struct gb_cap_fit_misses){sqrt(sum.distance / count),
+                                      sqrt(sum.error / count)};
 }
 
 static bool fit_sides(struct gb_cap_fit *fit, const struct gb_cap_side side[2], double a,
@@ -213,7 +218,13 @@ static bool fit_sides(struct gb_cap_fit *fit, const struct gb_cap_side side[2], 
         .cap = base, .shear_points = side[0].count, .cap_points = side[1].count};
     fit->cap.r = found.r;
     fit->cap.p_a = found.p_a;
-    fit->rms = distance_rms(&fit->cap, side);
+    double squares = 0.0;
+    for (int k = 0; k < 2; k++) {
+        fit->misses[k] = misses_of(&fit->cap, &side[k], (enum gb_cap_fit_side)k);
+        squares +=
+            (double)side[k].count * fit->misses[k].distance * fit->misses[k].distance;
+    }
+    fit->rms = sqrt(squares / (double)(side[0].count + side[1].count));
     take_values(fit, &line, &found, by, side);
     return true;
 }

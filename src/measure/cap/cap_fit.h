@@ -9,14 +9,22 @@
 #include "measure/fit/fit.h"
 #include "measure/yield_point.h"
 
+/* How far the points of one side are from the surface, Pa: along q for shear failure, along
+ * the radius of the ellipse for the cap. */
+struct gb_cap_fit_misses {
+    double distance; /* rms */
+    double error;    /* rms of the standard errors of the points, seen the same way; NaN
+                      * where points have none */
+};
+
 /* A cap surface fitted to yield points of one density: d and beta by least squares
  * through the points of shear failure, then R and p_a through those of the cap. */
 struct gb_cap_fit {
     struct gb_cap cap;
     struct gb_fit_value d, beta, r, p_a, p_b; /* Pa, rad, 1, Pa, Pa */
     size_t shear_points, cap_points;
-    double rms; /* of the distances along q of the shear points and along p of the
-                 * pressed ones, weighted alike, Pa */
+    struct gb_cap_fit_misses misses[2]; /* by enum gb_cap_fit_side */
+    double rms;                         /* of the distances of both, weighted alike, Pa */
 };
 
 /* By plastic flow: points that lose volume lie on the cap, those that grow fail in shear.

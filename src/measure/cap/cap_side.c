@@ -1,5 +1,6 @@
 #include "measure/cap/cap_side.h"
 
+#include <float.h>
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
@@ -27,6 +28,15 @@ static struct gb_cap at(const struct problem *problem, const gsl_vector *x)
 double gb_cap_side_radius(const struct gb_cap *cap, const struct gb_yield_point *point)
 {
     return hypot(point->p_pa - cap->p_a, cap->r * point->q_pa / gb_cap_flattening(cap));
+}
+
+double gb_cap_side_radius_error(const struct gb_cap *cap,
+                                const struct gb_yield_point *point)
+{
+    const double k = gb_cap_flattening(cap);
+    const double length = fmax(gb_cap_side_radius(cap, point), DBL_MIN);
+    return hypot((point->p_pa - cap->p_a) / length * point->p_error_pa,
+                 cap->r * cap->r * point->q_pa / (k * k * length) * point->q_error_pa);
 }
 
 static size_t residual_count(const struct gb_cap_side *side)
@@ -108,16 +118,11 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
 static void weigh(const struct problem *problem, const gsl_vector *x)
 {
     const struct gb_cap cap = at(problem, x);
-    const double k = gb_cap_flattening(&cap);
     for (size_t i = 0; i < problem->side->count; i++) {
         const struct gb_yield_point *point = problem->side->point[i];
-        const double length =
-            fmax(gb_cap_side_radius(&cap, point), 1e-12 * problem->unit);
-        const double p = (point->p_pa - cap.p_a) / length * point->p_error_pa;
-        const double q =
-            cap.r * cap.r * point->q_pa / (k * k * length) * point->q_error_pa;
         problem->weight[i] =
-            1.0 / (problem->side->weighted ? hypot(p, q) : problem->unit);
+            1.0 / (problem->side->weighted ? gb_cap_side_radius_error(&cap, point)
+                                           : problem->unit);
     }
 }
 

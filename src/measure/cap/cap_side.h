@@ -33,5 +33,8 @@ bool gb_cap_side_fit(struct gb_cap_side_found *found, const struct gb_cap_side *
 
 /* sqrt((p - p_a)^2 + (R q/k)^2) of a point; R D on the cap. */
 double gb_cap_side_radius(const struct gb_cap *cap, const struct gb_yield_point *point);
+/* Standard error of that radius, from the errors of p and q. */
+double gb_cap_side_radius_error(const struct gb_cap *cap,
+                                const struct gb_yield_point *point);
 
 #endif

@@ -5,13 +5,10 @@
 #include <string.h>
 
 #include "scene/path/path.h"
-#include "study/card/card_probe.h"
+#include "study/compact/offset_probe.h"
 
 /* Share of the top pressure at which the lowest density of a card is pressed. */
 static const double lowest_share = 0.05;
-
-/* Elastic volumetric strain of a compact, about. */
-static const double assumed_strain = 0.03;
 
 /* Strain step of unloading to the point inside. */
 static const double unload_step = 5e-4;
@@ -64,7 +61,7 @@ static bool start(struct gb_compact *loose, const struct gb_params *preset, int 
     params.geometry = GB_GEOMETRY_ISOTROPIC;
     params.seed += (uint64_t)(replica - 1);
     params.threads = 1;
-    params.tolerance = options->tolerance;
+    params.tolerance = options->press_tolerance;
     params.tolerance_scale = GB_TOLERANCE_CONTACT;
     g_strlcpy(params.path, "isotropic to density 0.99", sizeof params.path);
     return gb_compact_press(loose, &params, &at_once, callbacks, err);
@@ -101,82 +98,63 @@ static bool unload(struct gb_compact *top, double inside_pa,
     return follow(top, path, unload_step, &record, callbacks, inside, err);
 }
 
-/* K and G by which directions of stress are translated, from two short probes: without
- * sliding K and 3 G of a compact are about alike, which is enough to aim these. */
-static bool first_moduli(const struct gb_card_level *level, struct gb_compact *inside,
-                         const struct gb_card_options *options,
-                         const struct gb_pool_callbacks *callbacks, double *bulk,
-                         double *shear, struct gb_error *err)
-{
-    struct gb_card_options brief = *options;
-    struct gb_card_probe probe[2] = {{.state = NULL}, {.state = NULL}};
-    brief.strain_most = 1.01 * options->step;
-    brief.offset = INFINITY;
-    const double assumed = level->p_pa / assumed_strain;
-    const bool good = gb_card_probe_run(&probe[0], inside, 0.0, assumed, assumed / 3.0,
-                                        &brief, callbacks, err) &&
-                      gb_card_probe_run(&probe[1], inside, M_PI_2, assumed, assumed / 3.0,
-                                        &brief, callbacks, err);
-    gb_card_probe_moduli(probe, 2, bulk, shear);
-    gb_card_probe_finish(&probe[0]);
-    gb_card_probe_finish(&probe[1]);
-    return good && ((*bulk > 0.0 && *shear > 0.0) ||
-                    gb_error_set(err, GB_ERR_GUARD,
-                                 "card: the compact of density %.4f is not stiff",
-                                 level->density));
-}
-
-/* All directions; K and G of the first round of them are those of the level. */
-static bool probe_level(struct gb_card_cell *cell, struct gb_card_level *level,
-                        struct gb_compact *inside, int replica, double density,
+/* All directions.  The plastic strain of a probe is known as it grows: it ends at the offset,
+ * and so does its flow. */
+static bool probe_level(struct gb_card_cell *cell, struct gb_compact *inside, int replica,
+                        double density, const struct gb_yield_elastic *elastic,
                         const struct gb_card_options *options,
                         const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    struct gb_card_probe probe[GB_CARD_DIRECTIONS_MAX];
-    const int count = options->directions;
-    double bulk, shear;
-    memset(probe, 0, sizeof probe);
-    bool good = first_moduli(level, inside, options, callbacks, &bulk, &shear, err);
-    for (int k = 0; k < count && good; k++) {
-        good = gb_card_probe_run(&probe[k], inside, gb_card_options_direction(options, k),
-                                 bulk, shear, options, callbacks, err);
-    }
-    gb_card_probe_moduli(probe, count, &level->bulk, &level->shear_modulus);
-    for (int k = 0; k < count && good; k++) {
+    const struct gb_offset_probe_steps steps = {.step = options->step,
+                                                .strain_most = options->strain_most,
+                                                .enough = options->offset};
+    for (int k = 0; k < options->directions; k++) {
+        struct gb_offset_probe probe = {.state = NULL};
         struct gb_yield_point point;
-        if (gb_card_probe_point(&probe[k], level->bulk, level->shear_modulus,
-                                options->offset, &point)) {
+        const bool good =
+            gb_offset_probe_run(&probe, inside, gb_card_options_direction(options, k),
+                                elastic, &steps, callbacks, err);
+        if (good && gb_offset_probe_point(&probe, options->offset, 1.0, &point)) {
             point.replica = replica;
             point.density = density;
+            point.p_error_pa = point.q_error_pa = (double)NAN;
             g_array_append_val(cell->point, point);
         }
+        gb_offset_probe_finish(&probe);
+        if (!good) {
+            return false;
+        }
     }
-    for (int k = 0; k < count; k++) {
-        gb_card_probe_finish(&probe[k]);
-    }
-    return good;
+    return true;
 }
 
+/* Copies of the compact are relaxed more tightly than it was pressed. */
 static bool measure_level(struct gb_card_cell *cell, int index, int replica,
                           struct gb_compact *top, const struct gb_card_options *options,
                           const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     struct gb_card_level *level = &cell->level[index];
     const struct gb_compact_state state = gb_compact_state_of(&top->point);
+    const double pressing = top->tolerance;
     struct gb_compact inside = {0};
+    struct gb_compact_elastic elastic;
     level->density = top->point.density;
     level->p_pa = state.p;
     level->q_pa = state.q;
-    const bool good =
-        unload(top, options->inside * state.p, options, callbacks, &inside, err);
+    top->tolerance = options->tolerance;
+    bool good =
+        unload(top, options->inside * state.p, options, callbacks, &inside, err) &&
+        gb_compact_elastic(&elastic, &inside, callbacks, err);
+    top->tolerance = pressing;
     if (good) {
         level->inside_pa = gb_compact_state_of(&inside.point).p;
+        level->bulk = elastic.bulk;
+        level->shear_modulus = elastic.shear_modulus;
+        good = probe_level(cell, &inside, replica, options->density[index],
+                           &elastic.plane, options, callbacks, err);
     }
-    const bool probed =
-        good && probe_level(cell, level, &inside, replica, options->density[index],
-                            options, callbacks, err);
     gb_compact_finish(&inside);
-    return probed;
+    return good;
 }
 
 bool gb_card_cell_measure(struct gb_card_cell *cell, const struct gb_params *preset,

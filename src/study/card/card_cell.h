@@ -20,7 +20,7 @@ struct gb_card_level {
     double density;
     double p_pa, q_pa;          /* at which it was pressed */
     double inside_pa;           /* mean pressure at which its probes begin */
-    double bulk, shear_modulus; /* K and G of the probes' first steps, Pa */
+    double bulk, shear_modulus; /* K and G there, Pa */
 };
 
 struct gb_card_pressed {

@@ -1,31 +1,74 @@
 #include "study/card/card_files.h"
 
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <string.h>
 
 #include "measure/cap/cap_fit.h"
+#include "study/compact/study_text.h"
+
+static void add_comment(GString *text, const char *comment, const char *mark)
+{
+    char **lines = g_strsplit(comment, "\n", 0);
+    for (int i = 0; lines[i] != NULL; i++) {
+        if (lines[i][0] != '\0') {
+            g_string_append_printf(text, "%s %s\n", mark, lines[i]);
+        }
+    }
+    g_strfreev(lines);
+}
 
 static GString *begin(const char *comment, const char *mark)
 {
     GString *text = g_string_new(NULL);
-    char **lines = g_strsplit(comment, "\n", 0);
-    for (int i = 0; lines[i] != NULL; i++) {
-        g_string_append_printf(text, "%s %s\n", mark, lines[i]);
+    add_comment(text, comment, mark);
+    return text;
+}
+
+GString *gb_card_files_misses(const struct gb_card_study *study)
+{
+    static const char *const sides[] = {"shear failure", "cap"};
+    const double quantile = gsl_cdf_tdist_Pinv(0.975, study->options.replicas - 1.0);
+    GString *text = g_string_new(NULL);
+    for (int k = 0; k < study->levels; k++) {
+        for (int side = 0; side < 2; side++) {
+            const struct gb_cap_fit_misses *misses = &study->card.misses[k][side];
+            const double interval = quantile * misses->error;
+            if (misses->distance > interval) {
+                g_string_append_printf(
+                    text,
+                    "density %.3f, %s: the surface is %.3g MPa (rms) from its own points, "
+                    "which are known to within %.2g MPa (95 %%)\n",
+                    study->card.density[k], sides[side], misses->distance / 1e6,
+                    interval / 1e6);
+            }
+        }
     }
-    g_strfreev(lines);
+    return text;
+}
+
+static GString *begin_with_misses(const struct gb_card_study *study, const char *comment,
+                                  const char *mark)
+{
+    GString *text = begin(comment, mark);
+    GString *misses = gb_card_files_misses(study);
+    add_comment(text, misses->str, mark);
+    g_string_free(misses, TRUE);
     return text;
 }
 
 /* ",value,low,high" */
 static void append_value(GString *text, const struct gb_fit_value *value, double factor)
 {
-    g_string_append_printf(text, ",%.6g,%.6g,%.6g", value->value * factor,
-                           value->low * factor, value->high * factor);
+    const double number[] = {value->value * factor, value->low * factor,
+                             value->high * factor};
+    g_string_append_c(text, ',');
+    gb_study_text_cells(text, number, G_N_ELEMENTS(number));
 }
 
 GString *gb_card_files_card(const struct gb_card_study *study, const char *comment)
 {
-    GString *text = begin(comment, "#");
+    GString *text = begin_with_misses(study, comment, "#");
     g_string_append(text, "density,pressed_MPa");
     for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
         const char *name = gb_card_study_rows[n].name;
@@ -92,7 +135,7 @@ GString *gb_card_files_path(const struct gb_card_study *study, enum gb_card_path
 GString *gb_card_files_abaqus(const struct gb_card_study *study, const char *comment,
                               double mass_density)
 {
-    GString *text = begin(comment, "**");
+    GString *text = begin_with_misses(study, comment, "**");
     g_string_append_printf(
         text,
         "** Units: mm, N, MPa, tonne.  Field variable 1: relative density of the "

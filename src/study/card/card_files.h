@@ -7,6 +7,10 @@
 
 /* The tables of a card; stresses in MPa, angles in degrees, moduli in GPa. */
 
+/* A line for each density and side on which the surface is further from its own points (rms)
+ * than their 95 % intervals (rms of the standard errors, Student's t); empty where it is
+ * not.  card.csv and card.inp have them as comments. */
+GString *gb_card_files_misses(const struct gb_card_study *study);
 /* card.csv: a row per density, each parameter with its 95 % interval (_low, _high). */
 GString *gb_card_files_card(const struct gb_card_study *study, const char *comment);
 /* card_points.csv: the yield points, means over the cells with standard errors; `side` is

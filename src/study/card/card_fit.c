@@ -1,6 +1,7 @@
 #include "study/card/card_fit.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "measure/cap/cap_fit.h"
 #include "measure/fit/average.h"
@@ -124,6 +125,7 @@ static bool fit_level(struct gb_card_values *card, int level, double density,
     value[GB_CARD_P_A] = fit.p_a.value;
     value[GB_CARD_P_B] = fit.p_b.value;
     card->rms[level] = fit.rms;
+    memcpy(card->misses[level], fit.misses, sizeof fit.misses);
     return true;
 }
 

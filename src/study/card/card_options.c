@@ -32,9 +32,10 @@ void gb_card_options_init(struct gb_card_options *options)
                                         .directions = 19,
                                         .inside = 0.5,
                                         .offset = 1e-2,
-                                        .step = 5e-4,
+                                        .step = 1e-4,
                                         .strain_most = 0.06,
-                                        .tolerance = 5e-3,
+                                        .press_tolerance = 5e-3,
+                                        .tolerance = 1e-3,
                                         .transition = GB_CAP_TRANSITION,
                                         .flow = 1.0};
 }

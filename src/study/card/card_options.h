@@ -33,10 +33,11 @@ struct gb_card_options {
     double inside;   /* pressure at which probes begin, over that of the compact */
     double offset;   /* plastic strain at yield */
     double step;     /* strain step of a probe */
-    double strain_most; /* at which a probe is given up */
-    double tolerance;   /* numerics.tolerance of the cells */
-    double transition;  /* a of the surface */
-    double flow;        /* weight of the directions of flow (measure/cap/cap_fit.h) */
+    double strain_most;     /* at which a probe is given up */
+    double press_tolerance; /* numerics.tolerance of pressing ... */
+    double tolerance;       /* ... and of unloading and probes */
+    double transition;      /* a of the surface */
+    double flow;            /* weight of the directions of flow (measure/cap/cap_fit.h) */
 };
 
 void gb_card_options_init(struct gb_card_options *options);

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "measure/cap/cap_fit.h"
 #include "measure/cap/cap_path.h"
 #include "measure/fit/fit.h"
 #include "study/card/card_cell.h"
@@ -38,7 +39,8 @@ struct gb_card_values {
     double density[GB_CARD_LEVELS_MAX], pressed_pa[GB_CARD_LEVELS_MAX];
     double value[GB_CARD_LEVELS_MAX][GB_CARD_QUANTITIES];
     double rms[GB_CARD_LEVELS_MAX]; /* of the points from the surface, Pa */
-    double start_density;           /* of the unloaded first compact */
+    struct gb_cap_fit_misses misses[GB_CARD_LEVELS_MAX][2]; /* of shear failure and cap */
+    double start_density; /* of the unloaded first compact */
 };
 
 struct gb_card_study {

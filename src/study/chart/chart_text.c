@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
+
 enum { DESCRIPTION = 160 };
 
 static void add_pressure_heads(GString *text, const struct gb_chart_plan *plan)
@@ -77,10 +79,11 @@ static void add_table(GString *text, const struct gb_chart_table *table,
 static void add_recommended(GString *text, const struct gb_chart_table *table,
                             const struct gb_chart_plan *plan)
 {
-    char setting[DESCRIPTION];
+    char setting[DESCRIPTION], scatter[GB_NUMBER_MAX];
     g_string_append(text, "\nscatter of one cell:");
     for (int k = 0; k < plan->pressures; k++) {
-        g_string_append_printf(text, " %.4f at %.4g MPa%s", table->scatter[k],
+        g_string_append_printf(text, " %s at %.4g MPa%s",
+                               gb_number_shown("%.4f", table->scatter[k], scatter),
                                plan->pressure_pa[k] / 1e6,
                                k + 1 < plan->pressures ? "," : "\n");
     }

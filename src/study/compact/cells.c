@@ -207,6 +207,29 @@ double gb_cells_option(GKeyFile *question, const char *key)
     return value;
 }
 
+void gb_cells_write(GString *text, const struct gb_keep_point *mark, const void *options,
+                    const struct gb_cells_number *number, size_t count)
+{
+    g_string_append_printf(text, "by_density=%d\nmark=%.17g\n", mark->by_density,
+                           mark->value);
+    for (size_t i = 0; i < count; i++) {
+        const char *at = (const char *)options + number[i].offset;
+        g_string_append_printf(text, "%s=%.17g\n", number[i].key,
+                               *(const double *)(const void *)at);
+    }
+}
+
+void gb_cells_read(GKeyFile *question, struct gb_keep_point *mark, void *options,
+                   const struct gb_cells_number *number, size_t count)
+{
+    mark->by_density = gb_cells_option(question, "by_density") != 0.0;
+    mark->value = gb_cells_option(question, "mark");
+    for (size_t i = 0; i < count; i++) {
+        char *at = (char *)options + number[i].offset;
+        *(double *)(void *)at = gb_cells_option(question, number[i].key);
+    }
+}
+
 bool gb_cells_question(GKeyFile **question, const char *path, struct gb_error *err)
 {
     char *file = g_strconcat(path, ".ini", NULL);

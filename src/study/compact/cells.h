@@ -58,6 +58,19 @@ bool gb_cells_work(struct gb_cells *cells, int jobs, gb_pool_work *work,
 /* True when no cell failed; else GB_ERR_GUARD with their number and the first message. */
 bool gb_cells_check(const struct gb_cells *cells, struct gb_error *err);
 
+/* A double of the options of a study, and its key in the question. */
+struct gb_cells_number {
+    const char *key;
+    size_t offset;
+};
+
+/* Lines of the question for the mark and these numbers; and for the worker, what they say.
+ * A number that is missing becomes NaN. */
+void gb_cells_write(GString *text, const struct gb_keep_point *mark, const void *options,
+                    const struct gb_cells_number *number, size_t count);
+void gb_cells_read(GKeyFile *question, struct gb_keep_point *mark, void *options,
+                   const struct gb_cells_number *number, size_t count);
+
 /* For the worker.  A number of the question; NaN where it has none. */
 double gb_cells_option(GKeyFile *question, const char *key);
 bool gb_cells_question(GKeyFile **question, const char *path, struct gb_error *err);

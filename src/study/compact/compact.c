@@ -5,11 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "measure/elastic.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "scene/field/changes.h"
 #include "scene/path/path.h"
 #include "scene/tolerances.h"
+#include "solve/moduli/moduli.h"
 
 /* Force evaluations between two looks at whether to stop. */
 enum { SLICE = 2000 };
@@ -257,6 +259,43 @@ bool gb_compact_unload(struct gb_compact *from, double pressure_pa,
     }
     return gb_error_set(err, GB_ERR_GUARD, "unloading to %g MPa: %.200s",
                         1e-6 * pressure_pa, why.text);
+}
+
+bool gb_compact_elastic(struct gb_compact_elastic *elastic, struct gb_compact *compact,
+                        const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    const struct gb_moduli_options options = {
+        .cancelled = callbacks != NULL ? callbacks->cancelled : NULL,
+        .data = callbacks != NULL ? callbacks->data : NULL};
+    struct gb_experiment *experiment = NULL;
+    struct gb_error why = {0};
+    struct gb_moduli moduli;
+    double by_volume[2], by_shear[2];
+    if (!gb_experiment_resume(&experiment, &compact->params, &compact->record, err)) {
+        return false;
+    }
+    const bool good =
+        gb_moduli_measure(&moduli, gb_experiment_world(experiment), &options, &why);
+    gb_experiment_destroy(experiment);
+    if (!good) {
+        return gb_error_set(err, why.code == GB_ERR_INPUT ? GB_ERR_GUARD : why.code,
+                            "elastic constants at density %.4f: %.300s",
+                            compact->point.density, why.text);
+    }
+    for (int k = 0; k < 36; k++) {
+        moduli.c[k / 6][k % 6] *= compact->params.young_pa;
+    }
+    const struct gb_elastic_averages mean =
+        gb_elastic_average((const double(*)[6])moduli.c);
+    elastic->bulk = mean.bulk;
+    elastic->shear_modulus = mean.shear;
+    gb_elastic_plane((const double(*)[6])moduli.c, by_volume, by_shear);
+    if (!(mean.bulk > 0.0) || !(mean.shear > 0.0) ||
+        !gb_yield_offset_elastic(&elastic->plane, by_volume, by_shear)) {
+        return gb_error_set(err, GB_ERR_GUARD, "the compact of density %.4f is not stiff",
+                            compact->point.density);
+    }
+    return true;
 }
 
 void gb_compact_finish(struct gb_compact *compact)

@@ -7,6 +7,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "many/pool.h"
+#include "measure/yield_offset.h"
 #include "scene/field/keep_points.h"
 
 /* A pressed packing in memory.  Copies of it follow other loading paths; it does not
@@ -63,6 +64,18 @@ enum gb_compact_outcome gb_compact_follow(struct gb_compact *from, const char *p
 bool gb_compact_unload(struct gb_compact *from, double pressure_pa,
                        const struct gb_pool_callbacks *callbacks, struct gb_compact *to,
                        struct gb_error *err);
+
+/* Elastic constants of a compact in the state it is in, by gb_moduli_measure: the numbers
+ * of `greenbody moduli` at that state. */
+struct gb_compact_elastic {
+    double bulk, shear_modulus;    /* K and G of gb_elastic_average, Pa */
+    struct gb_yield_elastic plane; /* compliance of the (p, q) plane, 1/Pa */
+};
+
+/* Errors: GB_ERR_GUARD where the compact has no equilibrium or no stiffness,
+ * GB_ERR_CANCELLED, GB_ERR_MEMORY. */
+bool gb_compact_elastic(struct gb_compact_elastic *elastic, struct gb_compact *compact,
+                        const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
 /* The leg along which axial and lateral pressure (p_x = p_y) change in proportion: the axis
  * that changes more is strained, the other follows.  end: of that axis, as "3 %" or

@@ -45,6 +45,20 @@ void gb_study_text_value(GString *text, const char *head,
     g_string_append(text, gb_number_error(number, error, 2, " \xc2\xb1 ", buffer));
 }
 
+void gb_study_text_interval(GString *text, const char *head, const char *format,
+                            const struct gb_fit_value *value, double factor)
+{
+    char number[3][GB_NUMBER_MAX];
+    if (!isfinite(value->value)) {
+        g_string_append_printf(text, "%s-", head);
+        return;
+    }
+    g_string_append_printf(text, "%s%s (%s to %s)", head,
+                           gb_number_shown(format, factor * value->value, number[0]),
+                           gb_number_shown(format, factor * value->low, number[1]),
+                           gb_number_shown(format, factor * value->high, number[2]));
+}
+
 bool gb_study_text_write(const struct gb_study_text_file *file, size_t count,
                          const char *directory, struct gb_error *err)
 {

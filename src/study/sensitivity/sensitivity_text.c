@@ -79,7 +79,7 @@ static void add_share(GString *text, int width, double share, double error)
     if (error > 0.0) {
         gb_number_error(share, error, 2, " +- ", number);
     } else {
-        g_snprintf(number, sizeof number, "%.3f", share);
+        gb_number_shown("%.3f", share, number);
     }
     g_string_append_printf(text, "   %-*s", width, number);
 }

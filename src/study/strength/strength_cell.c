@@ -89,8 +89,11 @@ static bool measure(struct cell *cell, const struct gb_params *params, const cha
                     struct gb_error *err)
 {
     cell->top.sheared = true;
-    if (!gb_compact_press(&cell->top, params, &cell->mark, cell->callbacks, err) ||
-        !gb_compact_unload(&cell->top, 0.0, cell->callbacks, &cell->free, err)) {
+    if (!gb_compact_press(&cell->top, params, &cell->mark, cell->callbacks, err)) {
+        return false;
+    }
+    cell->top.tolerance = cell->options.tolerance;
+    if (!gb_compact_unload(&cell->top, 0.0, cell->callbacks, &cell->free, err)) {
         return false;
     }
     g_string_append(cell->rows, "test,strain,stress_Pa,density,broken\n");
@@ -111,9 +114,7 @@ bool gb_strength_cell_work(const struct gb_params *params, const char *path,
         return false;
     }
     struct cell cell = {.callbacks = callbacks, .rows = g_string_new(NULL)};
-    gb_strength_options_init(&cell.options);
-    cell.mark.by_density = gb_cells_option(question, "by_density") != 0.0;
-    cell.mark.value = gb_cells_option(question, "mark");
+    gb_strength_options_read(&cell.options, &cell.mark, question);
     g_key_file_free(question);
     const bool good = measure(&cell, params, path, err);
     gb_compact_finish(&cell.free);

@@ -1,6 +1,8 @@
 #ifndef GB_STUDY_STRENGTH_STRENGTH_OPTIONS_H
 #define GB_STUDY_STRENGTH_STRENGTH_OPTIONS_H
 
+#include <glib.h>
+
 #include "scene/field/keep_points.h"
 
 /* Tests of a compact without stress on it. */
@@ -26,6 +28,7 @@ struct gb_strength_options {
     double strain_most; /* at which a test ends */
     double
         fall; /* a test has passed its peak when the stress is below this share of it */
+    double tolerance; /* numerics.tolerance of unloading and tests */
 };
 
 enum { GB_STRENGTH_REPLICAS_MAX = 1000 };
@@ -34,5 +37,11 @@ void gb_strength_options_init(struct gb_strength_options *options);
 /* Errors: GB_ERR_INPUT naming the option and what is accepted. */
 bool gb_strength_options_check(const struct gb_strength_options *options,
                                struct gb_error *err);
+
+/* For the question of a cell (study/compact/cells.h) and back. */
+void gb_strength_options_write(const struct gb_strength_options *options,
+                               const struct gb_keep_point *mark, GString *text);
+void gb_strength_options_read(struct gb_strength_options *options,
+                              struct gb_keep_point *mark, GKeyFile *question);
 
 #endif

@@ -76,8 +76,8 @@ static void conclude_test(struct gb_strength_study *study,
     result.density = MEAN(density, &unused);
     result.strength_pa = MEAN(strength, &result.strength_error_pa);
     result.strain = MEAN(strain, &result.strain_error);
-    result.broken_at_peak = MEAN(at_peak, &unused);
-    result.broken_at_end = MEAN(at_end, &unused);
+    result.broken_at_peak = MEAN(at_peak, &result.broken_at_peak_error);
+    result.broken_at_end = MEAN(at_end, &result.broken_at_end_error);
 #undef MEAN
     for (int c = 0; c < cells; c++) {
         strength[c] = broken[c].strength;
@@ -181,10 +181,10 @@ static void add_cells(struct gb_cells *cells, const struct gb_params *params,
         own.seed = params->seed + (uint64_t)c;
         for (int m = 0; m < options->marks.count; m++) {
             const struct gb_keep_point *mark = &options->marks.point[m];
-            char *text = g_strdup_printf("study=strength\nby_density=%d\nmark=%.17g\n",
-                                         mark->by_density, mark->value);
-            gb_cells_add(cells, &own, gb_cells_name(mark, c), text);
-            g_free(text);
+            GString *text = g_string_new("study=strength\n");
+            gb_strength_options_write(options, mark, text);
+            gb_cells_add(cells, &own, gb_cells_name(mark, c), text->str);
+            g_string_free(text, TRUE);
         }
     }
 }
@@ -232,7 +232,8 @@ static GString *table(const struct gb_strength_study *study, const char *comment
     g_string_append(text, "test,pressure_MPa,pressed_density,cells,density,strength_MPa,"
                           "strength_error_MPa,strain_percent,strain_error_percent,"
                           "broken_at_peak_percent,broken_at_end_percent,weibull_modulus,"
-                          "weibull_low,weibull_high,weibull_scale_MPa\n");
+                          "weibull_low,weibull_high,weibull_scale_MPa,"
+                          "broken_at_peak_error_percent,broken_at_end_error_percent\n");
     for (guint i = 0; i < study->result->len; i++) {
         const struct gb_strength_result *r =
             &g_array_index(study->result, struct gb_strength_result, i);
@@ -249,7 +250,9 @@ static GString *table(const struct gb_strength_study *study, const char *comment
                                  r->weibull.modulus,
                                  r->weibull.modulus_low,
                                  r->weibull.modulus_high,
-                                 1e-6 * r->weibull.scale};
+                                 1e-6 * r->weibull.scale,
+                                 100.0 * r->broken_at_peak_error,
+                                 100.0 * r->broken_at_end_error};
         g_string_append_printf(text, "%s,", gb_strength_options_tests[r->test].name);
         gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
     }
@@ -275,7 +278,10 @@ static GString *page(const struct gb_strength_study *study, const char *title,
                                               .error = r->strength_error_pa};
         const struct gb_fit_value strain = {.value = r->strain, .error = r->strain_error};
         const struct gb_fit_value broken = {.value = r->broken_at_peak,
-                                            .error = (double)NAN};
+                                            .error = r->broken_at_peak_error};
+        const struct gb_fit_value modulus = {.value = r->weibull.modulus,
+                                             .low = r->weibull.modulus_low,
+                                             .high = r->weibull.modulus_high};
         g_string_append_printf(text, "| %g%s | %s",
                                r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
                                r->mark.by_density ? "" : " MPa",
@@ -283,8 +289,8 @@ static GString *page(const struct gb_strength_study *study, const char *title,
         gb_study_text_value(text, " | ", &strength, 1e-6);
         gb_study_text_value(text, " | ", &strain, 100.0);
         gb_study_text_value(text, " | ", &broken, 100.0);
-        g_string_append_printf(text, " | %.2g (%.2g to %.2g) |\n", r->weibull.modulus,
-                               r->weibull.modulus_low, r->weibull.modulus_high);
+        gb_study_text_interval(text, " | ", "%.2g", &modulus, 1.0);
+        g_string_append(text, " |\n");
     }
     if (study->failed > 0) {
         g_string_append_printf(text, "\nIncomplete: %s\n", study->why.text);

@@ -18,8 +18,9 @@ struct gb_strength_result {
     double density;                        /* without stress */
     double strength_pa, strength_error_pa; /* largest stress */
     double strain, strain_error;           /* at it */
-    double broken_at_peak, broken_at_end;  /* share of the bridges; NaN without any */
-    struct gb_weibull weibull;             /* of the strengths, Pa; NaN: fewer than 3 */
+    double broken_at_peak, broken_at_end;  /* fraction of the bridges; NaN without any */
+    double broken_at_peak_error, broken_at_end_error;
+    struct gb_weibull weibull; /* of the strengths, Pa; NaN: fewer than 3 */
 };
 
 struct gb_strength_study {

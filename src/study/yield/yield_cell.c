@@ -3,7 +3,11 @@
 #include <math.h>
 
 #include "study/compact/cells.h"
-#include "study/yield/yield_probe.h"
+#include "study/compact/offset_probe.h"
+#include "study/yield/yield_options.h"
+
+/* Plastic strain at which the flow has been measured, in offsets. */
+static const double flow_end = 1.5;
 
 /* A cell at work. */
 struct cell {
@@ -11,7 +15,7 @@ struct cell {
     struct gb_keep_point mark;
     const struct gb_pool_callbacks *callbacks;
     struct gb_compact top, inside;
-    struct gb_yield_elastic elastic;
+    struct gb_compact_elastic elastic;
     GString *points, *paths;
 };
 
@@ -25,14 +29,14 @@ static void add_number(GString *text, double value)
 
 /* Index of the direction and of the offset, state of the compact, the point. */
 static void add_point(struct cell *cell, int direction, int offset,
-                      const struct gb_yield_probe *probe)
+                      const struct gb_offset_probe *probe)
 {
     const double none = (double)NAN;
     const double size = gb_yield_options_offset[offset] * cell->options.offset;
     struct gb_yield_point point = {
         .p_pa = none, .q_pa = none, .flow_volume = none, .flow_shear = none};
     const struct gb_compact_state top = gb_compact_state_of(&cell->top.point);
-    gb_yield_probe_point(probe, size, &point);
+    gb_offset_probe_point(probe, size, flow_end, &point);
     g_string_append_printf(cell->points, "%d,%d", direction, offset);
     const double number[] = {
         cell->top.point.density, top.p,           top.q, point.p_pa, point.q_pa,
@@ -43,7 +47,8 @@ static void add_point(struct cell *cell, int direction, int offset,
     g_string_append_c(cell->points, '\n');
 }
 
-static void add_path(struct cell *cell, int direction, const struct gb_yield_probe *probe)
+static void add_path(struct cell *cell, int direction,
+                     const struct gb_offset_probe *probe)
 {
     if (probe->outcome == GB_COMPACT_STOPPED) {
         g_string_append_printf(cell->paths, "# direction %d stopped: %s\n", direction,
@@ -60,17 +65,23 @@ static void add_path(struct cell *cell, int direction, const struct gb_yield_pro
 
 static bool probe_one(struct cell *cell, int direction, struct gb_error *err)
 {
-    struct gb_yield_probe probe = {0};
-    const bool good = gb_yield_probe_run(
+    struct gb_offset_probe probe = {0};
+    /* the largest offset, with the rest of the way over which its flow is measured */
+    const struct gb_offset_probe_steps steps = {
+        .step = cell->options.step,
+        .strain_most = cell->options.strain_most,
+        .enough = flow_end * cell->options.offset *
+                  gb_yield_options_offset[GB_YIELD_OFFSETS - 1]};
+    const bool good = gb_offset_probe_run(
         &probe, &cell->inside, gb_yield_options_direction(&cell->options, direction),
-        &cell->elastic, &cell->options, cell->callbacks, err);
+        &cell->elastic.plane, &steps, cell->callbacks, err);
     for (int i = 0; i < GB_YIELD_OFFSETS && good; i++) {
         add_point(cell, direction, i, &probe);
     }
     if (good) {
         add_path(cell, direction, &probe);
     }
-    gb_yield_probe_finish(&probe);
+    gb_offset_probe_finish(&probe);
     return good;
 }
 
@@ -98,8 +109,7 @@ static bool measure(struct cell *cell, const struct gb_params *params, const cha
     const double pressure =
         cell->options.inside * gb_compact_state_of(&cell->top.point).p;
     return gb_compact_unload(&cell->top, pressure, cell->callbacks, &cell->inside, err) &&
-           gb_yield_probe_elastic(&cell->elastic, &cell->inside, &cell->options,
-                                  cell->callbacks, err) &&
+           gb_compact_elastic(&cell->elastic, &cell->inside, cell->callbacks, err) &&
            probe_all(cell, path, err);
 }
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "study/compact/study_text.h"
 
 static void begin(GString *text, const char *comment, const char *head)
@@ -114,23 +115,28 @@ static void add_surfaces(GString *text, const struct gb_yield_study *study)
                     "|---|---|---|---|---|---|---|---|\n");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
+        char number[GB_NUMBER_MAX];
         g_string_append_printf(text, "| %.4f", surface->density.value);
         gb_study_text_value(text, " | ", &surface->top_p, 1e-6);
         g_string_append_printf(text, " | %g", 100.0 * surface->offset);
         for (int k = GB_YIELD_CENTRE_P; k <= GB_YIELD_HALF_Q; k++) {
             gb_study_text_value(text, " | ", &surface->quantity[k], 1e-6);
         }
-        g_string_append_printf(text, " | %.3f |\n",
-                               quantity(surface, GB_YIELD_MISFIT)->value);
+        g_string_append_printf(
+            text, " | %s |\n",
+            gb_number_shown("%.3f", quantity(surface, GB_YIELD_MISFIT)->value, number));
     }
 }
 
-/* "is", "is not", or that the interval holds zero. */
+/* Whether the interval holds zero. */
 static const char *verdict(const struct gb_fit_value *value)
 {
+    if (!isfinite(value->low)) {
+        return "without an error";
+    }
     return value->low > 0.0    ? "above 0"
            : value->high < 0.0 ? "below 0"
-                               : "not told from 0";
+                               : "0 within its error";
 }
 
 /* Directions whose angle differs from 0 by more than its 95 % interval. */
@@ -149,6 +155,7 @@ static int count_angles(const struct gb_yield_surface *surface, int *all)
 static void add_statements_on(GString *text, const struct gb_yield_surface *surface)
 {
     int all = 0;
+    char number[GB_NUMBER_MAX];
     const int different = count_angles(surface, &all);
     const struct gb_fit_value *centre = quantity(surface, GB_YIELD_CENTRE_P);
     const struct gb_fit_value *loaded = quantity(surface, GB_YIELD_DILATANCY_COMPRESSION);
@@ -168,9 +175,10 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
                         quantity(surface, GB_YIELD_ANGLE_RMS), 1.0);
     g_string_append_printf(
         text,
-        " degrees (flow along the normal would show %.1f by the errors); in %d of %d "
+        " degrees (flow along the normal would show %s by the errors); in %d of %d "
         "directions its 95 %% interval leaves out 0\n",
-        quantity(surface, GB_YIELD_ANGLE_NOISE)->value, different, all);
+        gb_number_shown("%.1f", quantity(surface, GB_YIELD_ANGLE_NOISE)->value, number),
+        different, all);
     gb_study_text_value(text, "- mean deviation of the flow from the normal towards +p: ",
                         quantity(surface, GB_YIELD_FLOW_DEVIATION), 1.0);
     g_string_append_printf(text, " degrees, %s\n",
@@ -213,11 +221,12 @@ GString *gb_yield_files_page(const struct gb_yield_study *study, const char *tit
         text,
         "# Yield surface: %s\n\n`%s`\n\n%d cells. Each compact is unloaded to p = %g of "
         "its pressure at q = 0 and loaded from there in %d directions of the (p, q) "
-        "plane, until the plastic strain (total less elastic, by the stiffness of the "
-        "probe's first strain of %g) reaches the offset. Means with standard errors over "
-        "the cells.\n",
+        "plane, until the plastic strain reaches the offset: the total less the elastic "
+        "strain, by the elastic constants of the unloaded compact (`greenbody moduli`). "
+        "Strain steps of %g, relaxed to %g. Means with standard errors over the "
+        "cells.\n",
         title, command, options->replicas, options->inside, options->directions,
-        options->elastic);
+        options->step, options->tolerance);
     if (study->failed > 0) {
         g_string_append_printf(text, "\nIncomplete: %s\n", study->why.text);
     }

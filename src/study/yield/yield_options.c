@@ -15,9 +15,8 @@ void gb_yield_options_init(struct gb_yield_options *options)
         .inside = 0.5,
         .offset = 1e-3,
         .step = 2e-4,
-        .elastic = 1e-4,
         .strain_most = 0.03,
-        .tolerance = 1e-3,
+        .tolerance = 1e-4,
     };
 }
 
@@ -67,14 +66,10 @@ double gb_yield_options_direction(const struct gb_yield_options *options, int in
 }
 
 /* Members that a worker needs. */
-static const struct {
-    const char *key;
-    size_t offset;
-} numbers[] = {
+static const struct gb_cells_number numbers[] = {
     {"inside", offsetof(struct gb_yield_options, inside)},
     {"offset", offsetof(struct gb_yield_options, offset)},
     {"step", offsetof(struct gb_yield_options, step)},
-    {"elastic", offsetof(struct gb_yield_options, elastic)},
     {"strain_most", offsetof(struct gb_yield_options, strain_most)},
     {"tolerance", offsetof(struct gb_yield_options, tolerance)},
 };
@@ -82,24 +77,14 @@ static const struct {
 void gb_yield_options_write(const struct gb_yield_options *options,
                             const struct gb_keep_point *mark, GString *text)
 {
-    g_string_append_printf(text, "by_density=%d\nmark=%.17g\ndirections=%d\n",
-                           mark->by_density, mark->value, options->directions);
-    for (size_t i = 0; i < G_N_ELEMENTS(numbers); i++) {
-        const char *at = (const char *)options + numbers[i].offset;
-        g_string_append_printf(text, "%s=%.17g\n", numbers[i].key,
-                               *(const double *)(const void *)at);
-    }
+    g_string_append_printf(text, "directions=%d\n", options->directions);
+    gb_cells_write(text, mark, options, numbers, G_N_ELEMENTS(numbers));
 }
 
 void gb_yield_options_read(struct gb_yield_options *options, struct gb_keep_point *mark,
                            GKeyFile *question)
 {
     gb_yield_options_init(options);
-    mark->by_density = gb_cells_option(question, "by_density") != 0.0;
-    mark->value = gb_cells_option(question, "mark");
     options->directions = (int)gb_cells_option(question, "directions");
-    for (size_t i = 0; i < G_N_ELEMENTS(numbers); i++) {
-        char *at = (char *)options + numbers[i].offset;
-        *(double *)(void *)at = gb_cells_option(question, numbers[i].key);
-    }
+    gb_cells_read(question, mark, options, numbers, G_N_ELEMENTS(numbers));
 }

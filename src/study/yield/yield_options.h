@@ -20,9 +20,8 @@ struct gb_yield_options {
     double inside;      /* pressure at which probes begin, over that of the compact */
     double offset;      /* of plastic strain */
     double step;        /* strain step of a probe */
-    double elastic;     /* strain up to which the stiffness of a probe is measured */
     double strain_most; /* at which a probe is given up */
-    double tolerance;   /* numerics.tolerance of the cells */
+    double tolerance;   /* numerics.tolerance of unloading and probes */
 };
 
 void gb_yield_options_init(struct gb_yield_options *options);
