@@ -259,6 +259,11 @@ static const struct gb_figures_row table[] = {
      .x = {.name = "evaluations", .label = "force evaluations of one cell", .log = true},
      .y = {.name = "error_points", .label = "density error (% of theoretical density)"},
      .compute = gb_figures_chart_error},
+    {"chart-quantity", "deviation of a reported quantity against cost", "",
+     GB_FIGURES_TABLE,
+     .x = {.name = "cost", .label = "time of a cell over the default's", .log = true},
+     .y = {.name = "error_points", .label = "deviation from the tightest setting (%)"},
+     .compute = gb_figures_chart_quantity},
     {0},
 };
 

@@ -9,6 +9,7 @@ gb_figures_compute gb_figures_card;
 gb_figures_compute gb_figures_card_uniaxial;
 gb_figures_compute gb_figures_chart;
 gb_figures_compute gb_figures_chart_error;
+gb_figures_compute gb_figures_chart_quantity;
 gb_figures_compute gb_figures_contact;
 gb_figures_compute gb_figures_contacts;
 gb_figures_compute gb_figures_continuum;

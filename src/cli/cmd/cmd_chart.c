@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/text/visible.h"
 #include "base/units.h"
@@ -13,14 +14,16 @@
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "io/preset.h"
+#include "run/cost.h"
 #include "study/chart/chart_text.h"
+#include "study/chart/quantity_chart.h"
 
-enum { SEEDS_MAX = 1000, DESCRIPTION = 160 };
+enum { SEEDS_MAX = 1000, JOBS_MAX = 4096, DESCRIPTION = 160 };
 
 struct chart {
-    char *directory, *write, *pressures, *budget_text;
+    char *directory, *write, *pressures, *budget_text, *quantity;
     char **vary, **reference;
-    int seeds;
+    int seeds, jobs;
     double budget_s, allowed, standard_error;
     gboolean force, quiet;
     char *command; /* for the head of chart.csv */
@@ -29,7 +32,9 @@ struct chart {
     struct gb_chart_log log;
     struct gb_progress progress;
     double spent_s;
-    int missing; /* cells beyond the budget */
+    int missing;                         /* cells beyond the budget */
+    struct gb_quantity_chart quantities; /* of --quantity */
+    double since_s;                      /* clock, when the last cell of them ended */
 };
 
 static bool cancelled(void *data, double cpu_s)
@@ -219,16 +224,156 @@ static bool conclude(struct chart *chart, struct gb_error *err)
     return good;
 }
 
+/* --quantity */
+
+static void list_quantities(void)
+{
+    gb_visible_put(stdout, "quantity            unit   study     meaning\n");
+    for (const struct gb_quantity *row = gb_quantities(); row->name != NULL; row++) {
+        gb_visible_print(stdout, "%-18s  %-5s  %-8s  %s\n", row->name, row->unit,
+                         row->study->name, row->meaning);
+    }
+}
+
+/* Options of the chart of densities alone, and the reverse. */
+static bool check_quantity(const struct chart *chart, struct gb_error *err)
+{
+    if (chart->jobs < 0 || chart->jobs > JOBS_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--jobs %d: expected 1 to %d, or 0 for one per processor",
+                            chart->jobs, JOBS_MAX);
+    }
+    if (chart->quantity == NULL) {
+        return chart->jobs == 0 ||
+               gb_error_set(err, GB_ERR_INPUT, "--jobs: needs --quantity");
+    }
+    return chart->write == NULL ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--write: expected a chart of densities, without --quantity");
+}
+
+/* Processor time: of the cells that have ended, and about that of those at work. */
+static bool quantity_cancelled(void *data)
+{
+    const struct chart *chart = data;
+    const double jobs = chart->jobs > 0 ? chart->jobs : (double)g_get_num_processors();
+    return gb_signals_caught() != 0 ||
+           chart->spent_s + jobs * (gb_clock_s() - chart->since_s) > chart->budget_s;
+}
+
+static void quantity_progress(void *data, const struct gb_cells_item *cell, size_t done,
+                              size_t total)
+{
+    struct chart *chart = data;
+    const double jobs = chart->jobs > 0 ? chart->jobs : (double)g_get_num_processors();
+    chart->spent_s += jobs * (gb_clock_s() - chart->since_s);
+    chart->since_s = gb_clock_s();
+    gb_progress_say(&chart->progress, "%zu of %zu  %s%s%s", done, total, cell->name,
+                    cell->error.code != GB_OK ? ": " : "", cell->error.text);
+}
+
+/* scene.ini: preset.ini is the mark of a single run. */
+static bool keep_scene(const struct chart *chart, struct gb_error *err)
+{
+    char *path = g_build_filename(chart->directory, "scene.ini", NULL);
+    const bool good = gb_preset_save(chart->preset, path, GB_PRESET_ALL_KEYS, err);
+    g_free(path);
+    return good;
+}
+
+/* A table of each quantity of the study, and the text of the one asked for. */
+static bool write_quantities(const struct chart *chart, const struct gb_quantity *wanted,
+                             struct gb_error *err)
+{
+    bool good = true;
+    char *comment = g_strdup_printf(
+        "preset: %s\n%s\nerror: value minus that of the reference, same seeds, mean; "
+        "error_95: half of its 95 %% interval; bound: |error| + error_95; half_interval: "
+        "half of the 95 %% interval of the default with %d cells; cost: processor time "
+        "over the default's; settings in SI",
+        chart->quantities.params.title, chart->command, wanted->study->cells);
+    for (const struct gb_quantity *row = gb_quantities(); good && row->name != NULL;
+         row++) {
+        struct gb_quantity_table table;
+        if (row->study != wanted->study) {
+            continue;
+        }
+        gb_quantity_table_init(&table, &chart->quantities, row,
+                               row == wanted && chart->allowed > 0.0 ? chart->allowed
+                                                                     : (double)NAN);
+        GString *csv = gb_quantity_table_csv(&table, comment);
+        char *path = g_strconcat(chart->directory, "/", row->name, ".csv", NULL);
+        good = gb_file_replace(path, csv->str, csv->len, err);
+        if (good && row == wanted) {
+            print_text(gb_quantity_table_text(&table));
+        }
+        g_string_free(csv, TRUE);
+        g_free(path);
+        gb_quantity_table_finish(&table);
+    }
+    g_free(comment);
+    return good;
+}
+
+static bool perform_quantity(struct chart *chart, char **words, char **sets,
+                             struct gb_error *err)
+{
+    const struct gb_quantity *wanted = gb_quantities_find(chart->quantity, err);
+    const struct gb_cells_callbacks callbacks = {quantity_cancelled, quantity_progress,
+                                                 chart};
+    char cost[64];
+    size_t missing = 0;
+    struct gb_error why = {0};
+    if (wanted == NULL || !check(chart, err) ||
+        !gb_options_scene(&chart->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err) ||
+        !gb_quantity_chart_init(
+            &chart->quantities, wanted->study, gb_preset_params(chart->preset),
+            chart->pressures, (const char *const *)chart->vary,
+            (const char *const *)chart->reference, chart->seeds, chart->directory, err) ||
+        !keep_scene(chart, err)) {
+        return false;
+    }
+    const double cost_s = gb_quantity_chart_cost_s(&chart->quantities, &missing);
+    gb_visible_print(stdout, "%zu of %u cells to measure: about %s of processor time\n\n",
+                     missing, chart->quantities.cells.list->len,
+                     gb_cost_duration(cost_s, cost, sizeof cost));
+    (void)fflush(stdout);
+    chart->since_s = gb_clock_s();
+    bool good = gb_quantity_chart_work(&chart->quantities, chart->jobs, &callbacks, &why);
+    const bool spent = why.code == GB_ERR_CANCELLED && gb_signals_caught() == 0;
+    if (!write_quantities(chart, wanted, err)) {
+        return false;
+    }
+    if (spent) {
+        gb_quantity_chart_cost_s(&chart->quantities, &missing);
+        gb_visible_print(
+            stdout,
+            "%zu cells are missing: the budget is spent; the same command continues\n",
+            missing);
+    }
+    return good || spent || gb_error_set(err, why.code, "%s", why.text);
+}
+
 static int perform(struct chart *chart, char **words, char **sets)
 {
     struct gb_error err = {0};
-    if (prepare(chart, words, sets, &err) && measure_all(chart, &err) &&
-        conclude(chart, &err)) {
+    if (chart->quantity != NULL && strcmp(chart->quantity, "list") == 0) {
+        list_quantities();
+        return 0;
+    }
+    if (check_quantity(chart, &err) && chart->quantity != NULL) {
+        if (perform_quantity(chart, words, sets, &err)) {
+            return 0;
+        }
+    } else if (err.code == GB_OK && prepare(chart, words, sets, &err) &&
+               measure_all(chart, &err) && conclude(chart, &err)) {
         return 0;
     }
     if (err.code == GB_ERR_CANCELLED && gb_signals_caught() != 0) {
         struct gb_error ignored;
-        write_table(chart, &ignored);
+        if (chart->quantity == NULL) {
+            write_table(chart, &ignored);
+        }
         gb_progress_say(&chart->progress, "stopped; the same command continues");
         return gb_signals_exit_status(&err);
     }
@@ -237,12 +382,14 @@ static int perform(struct chart *chart, char **words, char **sets)
 
 static void finish(struct chart *chart)
 {
+    gb_quantity_chart_finish(&chart->quantities);
     gb_chart_log_close(&chart->log);
     gb_chart_plan_finish(&chart->plan);
     gb_preset_destroy(chart->preset);
     g_free(chart->directory);
     g_free(chart->write);
     g_free(chart->pressures);
+    g_free(chart->quantity);
     g_free(chart->budget_text);
     g_free(chart->command);
     g_strfreev(chart->vary);
@@ -259,6 +406,12 @@ int gb_cmd_chart(int argc, char **argv)
         "cell.  Marks the Pareto-optimal settings, recommends the cheapest one with an\n"
         "error below the scatter between cells, marks rows that are limited by noise,\n"
         "and estimates the number of cells for a standard error.",
+        "--quantity NAME charts a number that a study reports (`--quantity list`):\n"
+        "modulus, yield surface, card, strength, springback, constants of a fit.  It\n"
+        "prints its cost, varies the numerics of that study (--vary: tolerance=A,B or\n"
+        "numerics.inertia_scale=A,B) and recommends the cheapest setting whose\n"
+        "deviation from the tightest one has its 95 % bound below half of the interval\n"
+        "that the study reports.  DIR receives NAME.csv and cells/.\n\n"
         "DIR receives chart.csv (one row per setting), runs.csv (one row per cell)\n"
         "and preset.ini.  Repeated, the command continues an interrupted chart.\n"
         "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the\n"
@@ -270,18 +423,25 @@ int gb_cmd_chart(int argc, char **argv)
         gb_options_set(&sets),
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &chart.directory, "directory of the chart",
          "DIR"},
+        {"quantity", 0, 0, G_OPTION_ARG_STRING, &chart.quantity,
+         "a number that a study reports, in place of densities; list: their names",
+         "NAME"},
+        {"jobs", 'j', 0, G_OPTION_ARG_INT, &chart.jobs,
+         "cells of a quantity at once (one per processor)", "N"},
         {"seeds", 0, 0, G_OPTION_ARG_INT, &chart.seeds,
          "cells per setting, from structure.seed on (4)", "N"},
         {"budget", 0, 0, G_OPTION_ARG_STRING, &chart.budget_text,
          "CPU time after which it stops", "'10 min'"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &chart.pressures,
-         "pressures (those of unloading and the final one)", "'100 MPa; 1 GPa'"},
+         "pressures (those of unloading and the final one); of a quantity the compact",
+         "'100 MPa; 1 GPa'"},
         {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.vary,
          "values of a key; repeated: all combinations", "group.key=A,B,..."},
         {"reference", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.reference,
          "another value for the reference; may be repeated", "group.key=value"},
         {"allow", 0, 0, G_OPTION_ARG_DOUBLE, &chart.allowed,
-         "limit of the error in density (the scatter)", "0.002"},
+         "limit of the error in density (the scatter); of a quantity, in its unit",
+         "0.002"},
         {"standard-error", 0, 0, G_OPTION_ARG_DOUBLE, &chart.standard_error,
          "of a mean density, for the number of cells (0.001)", "0.001"},
         {"write", 0, 0, G_OPTION_ARG_FILENAME, &chart.write,

@@ -102,6 +102,14 @@ static bool is_done(const struct gb_cells *cells, const struct gb_cells_item *ce
     return done;
 }
 
+void gb_cells_find_done(struct gb_cells *cells)
+{
+    for (guint i = 0; i < cells->list->len; i++) {
+        struct gb_cells_item *cell = g_ptr_array_index(cells->list, i);
+        cell->done = is_done(cells, cell);
+    }
+}
+
 /* The old answer goes before the question changes. */
 static bool ask(const struct gb_cells *cells, const struct gb_cells_item *cell,
                 struct gb_error *err)

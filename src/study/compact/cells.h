@@ -47,6 +47,9 @@ struct gb_cells_item *gb_cells_add(struct gb_cells *cells, const struct gb_param
 /* "density-0.5-cell-001", of replica 0; g_free. */
 char *gb_cells_name(const struct gb_keep_point *mark, int replica);
 
+/* Marks the cells that have an answer to the same question as done. */
+void gb_cells_find_done(struct gb_cells *cells);
+
 /* Measures the cells without an answer: work gets the path of the cell without ending.
  *
  * jobs  workers; 0: one per processor

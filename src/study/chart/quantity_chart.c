@@ -1,0 +1,623 @@
+#include "study/chart/quantity_chart.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/table.h"
+#include "base/units.h"
+#include "measure/fit/average.h"
+#include "run/cost.h"
+#include "scene/loading_kind.h"
+#include "study/compact/study_text.h"
+
+/* Limits a mistyped list. */
+enum { SETTINGS_MAX = 2000, DESCRIPTION = 160 };
+
+/* More axes than this are varied one at a time. */
+enum { TOGETHER_MAX = 2 };
+
+/* Seconds that a bed takes for each of its particles in a die cycle, on one machine. */
+static const double bed_s = 0.1;
+
+/* Above this multiple of today's time the advice says so. */
+static const double cost_most = 3.0;
+
+static const struct gb_quantity_setting *setting_at(const struct gb_quantity_chart *chart,
+                                                    guint i)
+{
+    return &g_array_index(chart->setting, struct gb_quantity_setting, i);
+}
+
+static struct gb_quantity_cell *cell_at(const struct gb_quantity_chart *chart,
+                                        guint setting, int seed)
+{
+    return &chart->cell[setting * (guint)chart->seeds + (guint)seed];
+}
+
+/* The plan */
+
+static bool add(GArray *settings, const struct gb_quantity_setting *setting,
+                struct gb_error *err)
+{
+    /* the default is a row even where it equals the reference */
+    for (guint i = settings->len == 1 ? 1 : 0; i < settings->len; i++) {
+        if (memcmp(&g_array_index(settings, struct gb_quantity_setting, i), setting,
+                   sizeof *setting) == 0) {
+            return true;
+        }
+    }
+    if (settings->len >= SETTINGS_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT, "--vary: expected up to %d combinations",
+                            SETTINGS_MAX);
+    }
+    g_array_append_vals(settings, setting, 1);
+    return true;
+}
+
+/* Splits "axis=text".  text: into the assignment. */
+static bool find_axis(const struct gb_quantity_study *study, const char *option,
+                      const char *assignment, int *axis, const char **text,
+                      struct gb_error *err)
+{
+    const char *equals = strchr(assignment, '=');
+    GString *names = g_string_new(NULL);
+    const size_t length = equals != NULL ? (size_t)(equals - assignment) : 0;
+    bool found = false;
+    for (int a = 0; a < gb_quantities_axes(study) && !found; a++) {
+        const char *name = study->axis[a].name;
+        found = equals != NULL && strlen(name) == length &&
+                strncmp(name, assignment, length) == 0;
+        *axis = a;
+        g_string_append_printf(names, "%s%s", a > 0 ? ", " : "", name);
+    }
+    if (!found) {
+        gb_error_set(err, GB_ERR_INPUT, "--%s %.80s: expected NAME=VALUE with one of %s",
+                     option, assignment, names->str);
+    }
+    *text = found ? equals + 1 : NULL;
+    g_string_free(names, TRUE);
+    return found;
+}
+
+static bool read_value(const struct gb_quantity_study *study, const char *option,
+                       int axis, const char *text, double *value, struct gb_error *err)
+{
+    struct gb_error why = {0};
+    if (!gb_units_parse(text, (enum gb_dimension)study->axis[axis].dimension, value,
+                        &why)) {
+        return gb_error_set(err, GB_ERR_INPUT, "--%s %s=%.60s: %.200s", option,
+                            study->axis[axis].name, text, why.text);
+    }
+    return *value > 0.0 ||
+           gb_error_set(err, GB_ERR_INPUT, "--%s %s=%.60s: expected a number above 0",
+                        option, study->axis[axis].name, text);
+}
+
+/* All combinations of the lists from `vary` on. */
+static bool add_product(GArray *settings, const struct gb_quantity_study *study,
+                        const struct gb_quantity_setting *from, const char *const *vary,
+                        struct gb_error *err)
+{
+    const char *list;
+    int axis = 0;
+    if (*vary == NULL) {
+        return add(settings, from, err);
+    }
+    if (!find_axis(study, "vary", *vary, &axis, &list, err)) {
+        return false;
+    }
+    char **values = g_strsplit(list, ",", -1);
+    bool good = true;
+    for (int i = 0; values[i] != NULL && good; i++) {
+        struct gb_quantity_setting one = *from;
+        good = read_value(study, "vary", axis, values[i], &one.value[axis], err) &&
+               add_product(settings, study, &one, vary + 1, err);
+    }
+    g_strfreev(values);
+    return good;
+}
+
+/* All combinations of the factors of the axes from `axis` to before `end`. */
+static bool add_factors(GArray *settings, const struct gb_quantity_study *study,
+                        const struct gb_quantity_setting *from, int axis, int end,
+                        struct gb_error *err)
+{
+    if (axis >= end || axis >= GB_QUANTITY_AXES) {
+        return add(settings, from, err);
+    }
+    for (int k = 0; k < GB_QUANTITY_FACTORS && study->axis[axis].factor[k] > 0.0; k++) {
+        struct gb_quantity_setting one = *from;
+        one.value[axis] *= study->axis[axis].factor[k];
+        if (!add_factors(settings, study, &one, axis + 1, end, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool add_reference(GArray *settings, const struct gb_quantity_study *study,
+                          const struct gb_quantity_setting *own,
+                          const char *const *changes, struct gb_error *err)
+{
+    struct gb_quantity_setting reference = *own;
+    for (int a = 0; a < gb_quantities_axes(study); a++) {
+        reference.value[a] *= study->axis[a].factor[0];
+    }
+    for (int i = 0; changes != NULL && changes[i] != NULL; i++) {
+        const char *text;
+        int axis = 0;
+        if (!find_axis(study, "reference", changes[i], &axis, &text, err) ||
+            !read_value(study, "reference", axis, text, &reference.value[axis], err)) {
+            return false;
+        }
+    }
+    return add(settings, &reference, err);
+}
+
+/* Time of a cell over that with the default. */
+static double effort_of(const struct gb_quantity_chart *chart, guint setting)
+{
+    double effort = 1.0;
+    for (int a = 0; a < gb_quantities_axes(chart->study); a++) {
+        effort *=
+            pow(setting_at(chart, setting)->value[a] / setting_at(chart, 1)->value[a],
+                -chart->study->axis[a].effort);
+    }
+    return effort;
+}
+
+static bool plan(struct gb_quantity_chart *chart, const char *const *vary,
+                 const char *const *reference, struct gb_error *err)
+{
+    const struct gb_quantity_study *study = chart->study;
+    struct gb_model model;
+    struct gb_quantity_setting own = {{0.0}};
+    if (!gb_model_init(&model, &chart->params, err)) {
+        return false;
+    }
+    for (int a = 0; a < gb_quantities_axes(study); a++) {
+        own.value[a] = study->axis[a].own(&chart->params, &model);
+    }
+    if (!add_reference(chart->setting, study, &own, reference, err) ||
+        !add(chart->setting, &own, err)) {
+        return false;
+    }
+    const int axes = gb_quantities_axes(study);
+    const int together = axes <= TOGETHER_MAX ? axes : 1;
+    for (int a = 0; vary == NULL && a < axes; a += together) {
+        if (!add_factors(chart->setting, study, &own, a, a + together, err)) {
+            return false;
+        }
+    }
+    return vary == NULL || vary[0] == NULL ||
+           add_product(chart->setting, study, &own, vary, err);
+}
+
+static bool read_mark(struct gb_quantity_chart *chart, const char *at,
+                      struct gb_error *err)
+{
+    const char *text = at != NULL ? at : chart->study->at;
+    struct gb_keep_points points = {0};
+    struct gb_error why = {0};
+    if (chart->study->at == NULL) {
+        return at == NULL ||
+               gb_error_set(err, GB_ERR_INPUT,
+                            "--at %.80s: expected none for a quantity of %s", at,
+                            chart->study->name);
+    }
+    if (!gb_keep_points_parse(text, &points, &why) || points.count != 1 ||
+        points.every > 0) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--at %.80s: expected one density or pressure, as in "
+                            "'density = 0.5' or '100 MPa'",
+                            text);
+    }
+    chart->mark = points.point[0];
+    return true;
+}
+
+static void add_cells(struct gb_quantity_chart *chart)
+{
+    const struct gb_quantity_study *study = chart->study;
+    for (guint s = 0; s < chart->setting->len; s++) {
+        struct gb_quantity_ask ask = {.mark = chart->mark};
+        struct gb_params params = chart->params;
+        GString *head = g_string_new(study->name);
+        params.threads = 1;
+        params.snapshots_at[0] = '\0';
+        params.export_format = GB_LIVE_NONE;
+        memcpy(ask.setting, setting_at(chart, s)->value, sizeof ask.setting);
+        for (int a = 0; a < gb_quantities_axes(study); a++) {
+            g_string_append_printf(head, "-%s-%.6g",
+                                   gb_quantities_column(&study->axis[a]), ask.setting[a]);
+            if (study->axis[a].set != NULL) {
+                study->axis[a].set(&params, ask.setting[a]);
+            }
+        }
+        for (int c = 0; c < chart->seeds; c++) {
+            char *question = gb_quantities_question(study, &ask);
+            char *cell = study->at != NULL ? gb_cells_name(&chart->mark, c)
+                                           : g_strdup_printf("cell-%03d", c + 1);
+            params.seed = chart->params.seed + (uint64_t)c;
+            gb_cells_add(&chart->cells, &params,
+                         g_strdup_printf("%s-%s", head->str, cell), question);
+            g_free(cell);
+            g_free(question);
+        }
+        g_string_free(head, TRUE);
+    }
+}
+
+/* Answers that are there. */
+static bool read_cells(struct gb_quantity_chart *chart, struct gb_error *err)
+{
+    gb_cells_find_done(&chart->cells);
+    for (guint i = 0; i < chart->cells.list->len; i++) {
+        const struct gb_cells_item *item = g_ptr_array_index(chart->cells.list, i);
+        struct gb_quantity_cell *cell = &chart->cell[i];
+        struct gb_table *answers = NULL;
+        if (!item->done || cell->done) {
+            continue;
+        }
+        char *path = g_strconcat(chart->cells.directory, "/", item->name, ".csv", NULL);
+        bool good = gb_table_read(&answers, path, NULL, err);
+        const double *cpu_s = good ? gb_table_column(answers, "cpu_s", err) : NULL;
+        const double *failed = good ? gb_table_column(answers, "failed", err) : NULL;
+        good = cpu_s != NULL && failed != NULL && gb_table_rows(answers) == 1;
+        for (const struct gb_quantity *row = gb_quantities(); good && row->name != NULL;
+             row++) {
+            const double *value = row->study == chart->study
+                                      ? gb_table_column(answers, row->name, err)
+                                      : NULL;
+            good = value != NULL || row->study != chart->study;
+            if (value != NULL) {
+                cell->value[row->index] = value[0];
+            }
+        }
+        if (good) {
+            cell->done = true;
+            cell->failed = failed[0] != 0.0;
+            cell->cpu_s = cpu_s[0];
+        }
+        gb_table_destroy(answers);
+        g_free(path);
+        if (!good) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gb_quantity_chart_init(struct gb_quantity_chart *chart,
+                            const struct gb_quantity_study *study,
+                            const struct gb_params *params, const char *at,
+                            const char *const *vary, const char *const *reference,
+                            int seeds, const char *directory, struct gb_error *err)
+{
+    *chart = (struct gb_quantity_chart){
+        .study = study,
+        .params = *params,
+        .seeds = seeds,
+        .setting = g_array_new(FALSE, FALSE, sizeof(struct gb_quantity_setting)),
+    };
+    if (params->seed > UINT64_MAX - (uint64_t)seeds) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "structure.seed: expected at most 2^64 - 1 - %d in a chart of "
+            "%d seeds",
+            seeds, seeds);
+    }
+    if (!study->check(params, err) || !read_mark(chart, at, err) ||
+        !plan(chart, vary, reference, err) ||
+        !gb_cells_init(&chart->cells, directory, err)) {
+        return false;
+    }
+    add_cells(chart);
+    chart->cell = g_new0(struct gb_quantity_cell, chart->cells.list->len);
+    return read_cells(chart, err);
+}
+
+void gb_quantity_chart_finish(struct gb_quantity_chart *chart)
+{
+    gb_cells_finish(&chart->cells);
+    if (chart->setting != NULL) {
+        g_array_free(chart->setting, TRUE);
+    }
+    g_free(chart->cell);
+    memset(chart, 0, sizeof *chart);
+}
+
+double gb_quantity_chart_cost_s(const struct gb_quantity_chart *chart, size_t *missing)
+{
+    double there = 0.0, spent = 0.0, left = 0.0;
+    *missing = 0;
+    for (guint s = 0; s < chart->setting->len; s++) {
+        for (int c = 0; c < chart->seeds; c++) {
+            const struct gb_quantity_cell *cell = cell_at(chart, s, c);
+            there += cell->done ? effort_of(chart, s) : 0.0;
+            left += cell->done ? 0.0 : effort_of(chart, s);
+            spent += cell->cpu_s;
+            *missing += !cell->done;
+        }
+    }
+    if (there > 0.0) {
+        return left * spent / there;
+    }
+    const double assumed = gb_cost_assumed_s(&chart->params);
+    return left * (isfinite(assumed) ? chart->study->runs * assumed
+                                     : bed_s * (double)chart->params.count);
+}
+
+double gb_quantity_chart_spent_s(const struct gb_quantity_chart *chart)
+{
+    double spent = 0.0;
+    for (guint i = 0; i < chart->cells.list->len; i++) {
+        spent += chart->cell[i].cpu_s;
+    }
+    return spent;
+}
+
+bool gb_quantity_chart_work(struct gb_quantity_chart *chart, int jobs,
+                            const struct gb_cells_callbacks *callbacks,
+                            struct gb_error *err)
+{
+    const bool worked =
+        gb_cells_work(&chart->cells, jobs, gb_quantities_work, callbacks, err);
+    struct gb_error why = {0};
+    const bool read = read_cells(chart, &why);
+    if (worked && !read) {
+        return gb_error_set(err, why.code, "%s", why.text);
+    }
+    return worked && gb_cells_check(&chart->cells, err);
+}
+
+/* The table */
+
+/* Half of the 95 % interval of a mean. */
+static double half_95(double error, size_t count)
+{
+    return count > 1 ? error * gsl_cdf_tdist_Pinv(0.975, (double)count - 1.0)
+                     : (double)NAN;
+}
+
+static void fill(struct gb_quantity_result *row, const struct gb_quantity_chart *chart,
+                 const struct gb_quantity *quantity, guint setting)
+{
+    double *value = g_new(double, 2 * (gsize)chart->seeds), *error = value + chart->seeds;
+    double cpu = 0.0, ignored;
+    size_t count = 0;
+    row->setting = *setting_at(chart, setting);
+    for (int c = 0; c < chart->seeds; c++) {
+        const struct gb_quantity_cell *cell = cell_at(chart, setting, c);
+        const struct gb_quantity_cell *reference = cell_at(chart, 0, c);
+        if (cell->done) {
+            const double own = cell->value[quantity->index];
+            row->seeds++;
+            row->failed += cell->failed || isnan(own);
+            cpu += cell->cpu_s;
+            value[count] = own;
+            error[count++] =
+                reference->done ? own - reference->value[quantity->index] : (double)NAN;
+        }
+    }
+    row->cpu_s = cpu / (double)row->seeds;
+    const size_t values = gb_average_values(value, count, &row->value, &ignored);
+    row->scatter = ignored * sqrt((double)values);
+    const size_t pairs = gb_average_values(error, count, &row->error, &row->error_se);
+    row->error_95 = half_95(row->error_se, pairs);
+    row->bound = setting > 0 ? fabs(row->error) + row->error_95 : (double)NAN;
+    row->noise_limited = isfinite(row->bound) && fabs(row->error) <= row->error_95;
+    g_free(value);
+}
+
+/* All cells of the chart are there, and have values. */
+static bool is_complete(const struct gb_quantity_table *table,
+                        const struct gb_quantity_result *row)
+{
+    return isfinite(row->bound) && row->failed == 0 &&
+           row->seeds == gb_quantity_table_at(table, 0)->seeds;
+}
+
+static void mark(struct gb_quantity_table *table)
+{
+    struct gb_quantity_result *row = (void *)table->row->data, *best = NULL;
+    for (guint i = 1; i < table->row->len; i++) {
+        row[i].front = is_complete(table, &row[i]);
+        for (guint k = 1; k < table->row->len && row[i].front; k++) {
+            row[i].front = !(is_complete(table, &row[k]) && row[k].cpu_s < row[i].cpu_s &&
+                             row[k].bound < row[i].bound);
+        }
+        if (is_complete(table, &row[i]) && row[i].bound <= table->allowed &&
+            (best == NULL || row[i].cpu_s < best->cpu_s)) {
+            best = &row[i];
+        }
+    }
+    if (best != NULL) {
+        best->chosen = true;
+    }
+}
+
+void gb_quantity_table_init(struct gb_quantity_table *table,
+                            const struct gb_quantity_chart *chart,
+                            const struct gb_quantity *quantity, double allowed)
+{
+    const double cells = chart->study->cells;
+    *table = (struct gb_quantity_table){
+        .quantity = quantity,
+        .row = g_array_new(FALSE, TRUE, sizeof(struct gb_quantity_result)),
+    };
+    g_array_set_size(table->row, chart->setting->len);
+    struct gb_quantity_result *row = (void *)table->row->data;
+    for (guint i = 0; i < table->row->len; i++) {
+        fill(&row[i], chart, quantity, i);
+    }
+    double squares = 0.0, degrees = 0.0;
+    for (guint i = 0; i < table->row->len; i++) {
+        const double own = row[i].seeds - row[i].failed - 1;
+        row[i].cost = row[i].cpu_s / row[1].cpu_s;
+        if (isfinite(row[i].scatter)) {
+            squares += own * row[i].scatter * row[i].scatter;
+            degrees += own;
+        }
+    }
+    table->half_interval = half_95(sqrt(squares / degrees / cells), (size_t)cells);
+    table->allowed = isfinite(allowed) ? allowed : table->half_interval;
+    mark(table);
+}
+
+void gb_quantity_table_finish(struct gb_quantity_table *table)
+{
+    if (table->row != NULL) {
+        g_array_free(table->row, TRUE);
+    }
+    *table = (struct gb_quantity_table){0};
+}
+
+const struct gb_quantity_result *
+gb_quantity_table_at(const struct gb_quantity_table *table, size_t row)
+{
+    return &g_array_index(table->row, struct gb_quantity_result, row);
+}
+
+const struct gb_quantity_result *
+gb_quantity_table_chosen(const struct gb_quantity_table *table)
+{
+    for (guint i = 0; i < table->row->len; i++) {
+        if (gb_quantity_table_at(table, i)->chosen) {
+            return gb_quantity_table_at(table, i);
+        }
+    }
+    return NULL;
+}
+
+char *gb_quantity_describe(const struct gb_quantity_study *study,
+                           const struct gb_quantity_setting *setting, char *buffer,
+                           size_t size)
+{
+    buffer[0] = '\0';
+    for (int a = 0; a < gb_quantities_axes(study); a++) {
+        char value[48];
+        const size_t used = strlen(buffer);
+        gb_units_format_short(setting->value[a],
+                              (enum gb_dimension)study->axis[a].dimension, 4, value,
+                              sizeof value);
+        snprintf(buffer + used, size - used, "%s%s %s", a > 0 ? ", " : "",
+                 gb_quantities_column(&study->axis[a]), value);
+    }
+    return buffer;
+}
+
+GString *gb_quantity_table_csv(const struct gb_quantity_table *table, const char *comment)
+{
+    const struct gb_quantity_study *study = table->quantity->study;
+    const int axes = gb_quantities_axes(study);
+    GString *text = g_string_new("# greenbody " GB_VERSION "\n");
+    gb_study_text_comment(text, comment);
+    g_string_append(text, "quantity,unit");
+    for (int a = 0; a < axes; a++) {
+        g_string_append_printf(text, ",%s", gb_quantities_column(&study->axis[a]));
+    }
+    g_string_append(text,
+                    ",reference,default,seeds,failed,cpu_s,cost,value,scatter,error,"
+                    "error_se,error_95,bound,half_interval,noise_limited,front,"
+                    "chosen\n");
+    for (guint i = 0; i < table->row->len; i++) {
+        const struct gb_quantity_result *row = gb_quantity_table_at(table, i);
+        if (row->seeds == 0) {
+            continue;
+        }
+        g_string_append_printf(text, "%s,%s,", table->quantity->name,
+                               table->quantity->unit);
+        const double number[] = {i == 0,
+                                 i == 1,
+                                 row->seeds,
+                                 row->failed,
+                                 row->cpu_s,
+                                 row->cost,
+                                 row->value,
+                                 row->scatter,
+                                 i == 0 ? (double)NAN : row->error,
+                                 i == 0 ? (double)NAN : row->error_se,
+                                 i == 0 ? (double)NAN : row->error_95,
+                                 row->bound,
+                                 table->half_interval,
+                                 row->noise_limited,
+                                 row->front,
+                                 row->chosen};
+        gb_study_text_cells(text, row->setting.value, (size_t)axes);
+        g_string_append_c(text, ',');
+        gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
+    }
+    return text;
+}
+
+static void add_row(GString *text, const struct gb_quantity_table *table, guint i)
+{
+    const struct gb_quantity_result *row = gb_quantity_table_at(table, i);
+    char setting[DESCRIPTION], deviation[64] = "", share[16] = "";
+    if (i == 0) {
+        snprintf(deviation, sizeof deviation, "value %.4g", row->value);
+    } else if (row->failed > 0) {
+        snprintf(deviation, sizeof deviation, "%d of %d failed", row->failed, row->seeds);
+    } else if (!isfinite(row->bound)) {
+        snprintf(deviation, sizeof deviation, "needs 2 seeds");
+    } else {
+        snprintf(deviation, sizeof deviation, "%+.3g ± %.2g", row->error, row->error_95);
+        snprintf(share, sizeof share, "%.2f", row->bound / table->half_interval);
+    }
+    const int wide = (int)(strlen(deviation) - (size_t)g_utf8_strlen(deviation, -1));
+    g_string_append_printf(text, "%c%c%c%c %7.3g  %5.2f  %5d  %-*s  %5s  %s\n",
+                           i == 0   ? 'R'
+                           : i == 1 ? 'D'
+                                    : ' ',
+                           row->front ? 'F' : ' ', row->noise_limited ? 'n' : ' ',
+                           row->chosen ? '*' : ' ', row->cpu_s, row->cost, row->seeds,
+                           20 + wide, deviation, share,
+                           gb_quantity_describe(table->quantity->study, &row->setting,
+                                                setting, sizeof setting));
+}
+
+GString *gb_quantity_table_text(const struct gb_quantity_table *table)
+{
+    const struct gb_quantity *quantity = table->quantity;
+    const bool unit = strcmp(quantity->unit, "1") != 0;
+    GString *text = g_string_new(NULL);
+    char setting[DESCRIPTION];
+    g_string_append_printf(text, "%s%s%s, %s (%s)\n", quantity->name, unit ? ", " : "",
+                           unit ? quantity->unit : "", quantity->meaning,
+                           quantity->study->name);
+    g_string_append(text, "       CPU s   cost  seeds  deviation, 95 %       share  "
+                          "setting\n");
+    for (guint i = 0; i < table->row->len; i++) {
+        if (gb_quantity_table_at(table, i)->seeds > 0) {
+            add_row(text, table, i);
+        }
+    }
+    g_string_append_printf(
+        text,
+        "R reference, D the default, F Pareto-optimal in cost and deviation,\n"
+        "n the interval contains 0, * recommended; CPU s of one cell, cost over that of\n"
+        "the default; share: upper bound of the deviation over half of the interval\n\n"
+        "half of the 95 %% interval of %d cells: %.3g\n",
+        quantity->study->cells, table->half_interval);
+    const struct gb_quantity_result *chosen = gb_quantity_table_chosen(table);
+    if (chosen == NULL) {
+        g_string_append_printf(
+            text,
+            "no setting is known to deviate by less than %.3g; more seeds reduce the "
+            "uncertainty\n",
+            table->allowed);
+    } else {
+        g_string_append_printf(
+            text,
+            "cheapest setting that deviates by less than %.3g: %s (%.2g times the "
+            "default's time%s)\n",
+            table->allowed,
+            gb_quantity_describe(quantity->study, &chosen->setting, setting,
+                                 sizeof setting),
+            chosen->cost, chosen->cost > cost_most ? ", which is more than three" : "");
+    }
+    return text;
+}
