@@ -87,5 +87,49 @@ is 'another file is not replaced' refused "$greenbody" chart \
 is 'but the preset itself is' chart --allow 1 --out out --write mine.ini
 is 'to the same' cmp -s mine.ini copy.ini
 
+# Any quantity that a study reports.
+quantity() { # name, more arguments: a small scene and three settings
+    name=$1
+    shift
+    "$greenbody" chart mine.ini loading.unload_from= --quantity "$name" --jobs 2 --seeds 2 \
+        --at '20 MPa' --vary 'numerics.tolerance=0.1' --reference 'loading.step=0.2 %' \
+        --reference 'numerics.tolerance=0.02' "$@" >stdout 2>stderr
+}
+
+is 'the quantities have names' sh -c "'$greenbody' chart --quantity list >stdout 2>stderr"
+is 'with unit and study' grep -q '^residual_stress  *MPa  *die ' stdout
+is 'another name' refused "$greenbody" chart mine.ini --quantity moduli --out q
+is 'lists the names' grep -q 'quantity = moduli: expected E, nu' stderr
+is 'no preset is written with it' refused "$greenbody" chart mine.ini --quantity E --out q \
+    --write new.ini
+is 'nor a number of cells' refused "$greenbody" chart mine.ini --quantity E --out q \
+    --standard-error 0.01
+is 'a chart of densities uses one core' refused "$greenbody" chart mine.ini --jobs 2 --out q
+is 'a key that is no axis' refused "$greenbody" chart mine.ini --quantity E --out q \
+    --vary contact.mu=0.1
+is 'a scene without it' refused "$greenbody" chart mine.ini --quantity residual_stress --out q
+is 'a mark for what has none' refused "$greenbody" chart mine.ini --quantity heckel_K --out q \
+    --at '20 MPa'
+is 'a folder of a run' sh -c 'mkdir single && touch single/preset.ini'
+is 'is none for a chart' refused "$greenbody" chart mine.ini --quantity E --out single
+is 'nothing is made' [ ! -e q ]
+
+is 'a budget stops a quantity' quantity E --out q --budget '1 ms'
+is 'the cost comes first' [ "$(head -n 1 stdout | cut -d: -f1)" = '6 of 6 cells to measure' ]
+is 'and says that it continues' grep -q 'the same command continues' stdout
+is 'it promises no number' sh -c '! grep -q nan stdout q/E.csv'
+is 'the same command ends it' quantity E --out q
+is 'with a recommendation or none' grep -qE '^(cheapest|no) setting' stdout
+is 'a row per setting' [ "$(grep -c '^E,GPa,' q/E.csv)" -eq 3 ]
+is 'the reference first' [ "$(awk -F, '/^E,/ { print $5 $6; exit }' q/E.csv)" = 10 ]
+is 'both cells of each' [ "$(awk -F, '/^E,/ && $7 == 2 && $8 == 0' q/E.csv | wc -l)" -eq 3 ]
+is 'its command is kept' grep -q '^# command: greenbody chart mine.ini' q/E.csv
+cp q/E.csv E.csv
+is 'another quantity of the same cells' quantity nu --out q
+is 'measures nothing' grep -q '^0 of 6 cells to measure' stdout
+is 'and gives the same' sh -c '[ "$(grep ^E, q/E.csv)" = "$(grep ^E, E.csv)" ]'
+is 'a figure of it' "$greenbody" plot q/E.csv --figure chart-quantity -o figure.svg
+is 'of one file' refused "$greenbody" plot q --figure chart-quantity -o no.svg
+
 echo "1..$tests"
 exit $bad

@@ -18,6 +18,9 @@
 #include "study/chart/chart_text.h"
 #include "study/chart/quantity_chart.h"
 
+/* Of a mean density, by default. */
+#define STANDARD_ERROR 0.001
+
 enum { SEEDS_MAX = 1000, JOBS_MAX = 4096, DESCRIPTION = 160 };
 
 struct chart {
@@ -247,9 +250,10 @@ static bool check_quantity(const struct chart *chart, struct gb_error *err)
         return chart->jobs == 0 ||
                gb_error_set(err, GB_ERR_INPUT, "--jobs: needs --quantity");
     }
-    return chart->write == NULL ||
+    return (chart->write == NULL && chart->standard_error == STANDARD_ERROR) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--write: expected a chart of densities, without --quantity");
+                        "--write, --standard-error: expected a chart of densities, "
+                        "without --quantity");
 }
 
 /* Processor time: of the cells that have ended, and about that of those at work. */
@@ -268,8 +272,10 @@ static void quantity_progress(void *data, const struct gb_cells_item *cell, size
     const double jobs = chart->jobs > 0 ? chart->jobs : (double)g_get_num_processors();
     chart->spent_s += jobs * (gb_clock_s() - chart->since_s);
     chart->since_s = gb_clock_s();
-    gb_progress_say(&chart->progress, "%zu of %zu  %s%s%s", done, total, cell->name,
-                    cell->error.code != GB_OK ? ": " : "", cell->error.text);
+    if (cell->error.code != GB_ERR_CANCELLED) {
+        gb_progress_say(&chart->progress, "%zu of %zu  %s%s%s", done, total, cell->name,
+                        cell->error.code != GB_OK ? ": " : "", cell->error.text);
+    }
 }
 
 /* scene.ini: preset.ini is the mark of a single run. */
@@ -416,7 +422,8 @@ int gb_cmd_chart(int argc, char **argv)
         "and preset.ini.  Repeated, the command continues an interrupted chart.\n"
         "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the\n"
         "errors at one of the pressures."};
-    struct chart chart = {.seeds = 4, .standard_error = 0.001, .log = {.lock = -1}};
+    struct chart chart = {
+        .seeds = 4, .standard_error = STANDARD_ERROR, .log = {.lock = -1}};
     char **sets = NULL, **words = NULL;
     int status = 0;
     const GOptionEntry entries[] = {

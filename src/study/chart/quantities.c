@@ -15,6 +15,13 @@
 #include "study/compact/cells.h"
 #include "study/compact/compact.h"
 #include "study/compact/study_text.h"
+#include "study/strength/strength_cell.h"
+
+/* Factors of a number that is more accurate the smaller it is. */
+#define TIGHTER                                                                          \
+    {                                                                                    \
+        0.2, 0.5, 1.0, 2.0                                                               \
+    }
 
 /* Axes of the run that makes a cell. */
 
@@ -42,15 +49,11 @@ static void set_step(struct gb_params *params, double value)
     params->strain_step = fmax(params->strain_step, value);
 }
 
-#define RUN_AXES                                                                         \
-    {                                                                                    \
-        {"numerics.tolerance", GB_DIM_NONE,  {0.2, 0.5, 1.0, 2.0}, 0.5,                  \
-         own_tolerance,        set_tolerance},                                           \
-        {                                                                                \
-            "loading.step", GB_DIM_FRACTION, {0.2, 0.5, 1.0, 2.0}, 0.5, own_step,        \
-                set_step                                                                 \
-        }                                                                                \
-    }
+static const struct gb_quantity_axis run_axes[] = {
+    {"numerics.tolerance", GB_DIM_NONE, TIGHTER, 0.3, own_tolerance, set_tolerance},
+    {"loading.step", GB_DIM_FRACTION, TIGHTER, 0.3, own_step, set_step},
+    {0},
+};
 
 /* Runs the cell into a directory and reads its curve. */
 static bool run_cell(struct gb_runset *set, const struct gb_params *params,
@@ -111,9 +114,79 @@ static const struct gb_quantity_study moduli = {
     .at = "density = 0.5",
     .cells = 8,
     .runs = 2.0,
-    .axis = RUN_AXES,
+    .axis = run_axes,
     .check = check_moduli,
     .measure = measure_moduli,
+};
+
+/* strength: the tests of a compact; how it was pressed does not vary. */
+
+static bool check_compact(const struct gb_params *params, struct gb_error *err)
+{
+    struct gb_params ignored;
+    return gb_compact_params(&ignored, params, err);
+}
+
+static double own_strength_tolerance(const struct gb_params *params,
+                                     const struct gb_model *model)
+{
+    struct gb_strength_options options;
+    gb_strength_options_init(&options);
+    return isnan(options.tolerance) ? own_tolerance(params, model) : options.tolerance;
+}
+
+static double own_strength_step(const struct gb_params *params,
+                                const struct gb_model *model)
+{
+    struct gb_strength_options options;
+    (void)params;
+    (void)model;
+    gb_strength_options_init(&options);
+    return options.step;
+}
+
+static bool measure_strength(double value[GB_QUANTITY_VALUES],
+                             const struct gb_params *params,
+                             const struct gb_quantity_ask *ask, const char *path,
+                             const struct gb_pool_callbacks *callbacks,
+                             struct gb_error *err)
+{
+    (void)path;
+    struct gb_strength_options options;
+    struct gb_strength_broken test[GB_STRENGTH_TESTS];
+    struct gb_params own;
+    gb_strength_options_init(&options);
+    options.tolerance = ask->setting[0];
+    options.step = ask->setting[1];
+    if (!gb_compact_params(&own, params, err)) {
+        return false;
+    }
+    own.on_collapse = GB_COLLAPSE_STOP;
+    if (!gb_strength_cell_measure(test, &own, &ask->mark, &options, NULL, callbacks,
+                                  err)) {
+        return false;
+    }
+    for (int t = 0; t < GB_STRENGTH_TESTS; t++) {
+        value[t] = 1e-6 * test[t].strength;
+        value[GB_STRENGTH_TESTS + t] = 100.0 * test[t].at_peak;
+    }
+    return true;
+}
+
+static const struct gb_quantity_axis strength_axes[] = {
+    {"tolerance", GB_DIM_NONE, TIGHTER, 0.25, own_strength_tolerance, NULL},
+    {"step", GB_DIM_FRACTION, TIGHTER, 0.6, own_strength_step, NULL},
+    {0},
+};
+
+static const struct gb_quantity_study strength = {
+    .name = "strength",
+    .at = "density = 0.5",
+    .cells = 8,
+    .runs = 3.0,
+    .axis = strength_axes,
+    .check = check_compact,
+    .measure = measure_strength,
 };
 
 /* fit: equations of compaction, fitted to the curve of each cell. */
@@ -171,7 +244,7 @@ static const struct gb_quantity_study fit = {
     .name = "fit",
     .cells = 8,
     .runs = 1.0,
-    .axis = RUN_AXES,
+    .axis = run_axes,
     .check = check_fit,
     .measure = measure_fit,
 };
@@ -255,25 +328,24 @@ static bool measure_die(double value[GB_QUANTITY_VALUES], const struct gb_params
     return good;
 }
 
+static const struct gb_quantity_axis die_axes[] = {
+    {"numerics.inertia_scale",
+     GB_DIM_NONE,
+     {0.2, 0.5, 1.0},
+     0.2,
+     own_inertia,
+     set_inertia},
+    {"numerics.safety", GB_DIM_NONE, {0.2, 0.5, 1.0}, 1.0, own_safety, set_safety},
+    {"die.eject_speed", GB_DIM_SPEED, TIGHTER, 0.3, own_eject, set_eject},
+    {"loading.time", GB_DIM_TIME, {5.0, 2.0, 1.0}, -0.5, own_time, set_time},
+    {0},
+};
+
 static const struct gb_quantity_study die = {
     .name = "die",
     .cells = 8,
     .runs = 1.0,
-    .axis =
-        {{"numerics.inertia_scale",
-          GB_DIM_NONE,
-          {0.2, 0.5, 1.0},
-          0.2,
-          own_inertia,
-          set_inertia},
-         {"numerics.safety", GB_DIM_NONE, {0.2, 0.5, 1.0}, 1.0, own_safety, set_safety},
-         {"die.eject_speed",
-          GB_DIM_SPEED,
-          {0.2, 0.5, 1.0, 2.0},
-          0.3,
-          own_eject,
-          set_eject},
-         {"loading.time", GB_DIM_TIME, {5.0, 2.0, 1.0}, -0.5, own_time, set_time}},
+    .axis = die_axes,
     .check = check_die,
     .measure = measure_die,
 };
@@ -281,6 +353,18 @@ static const struct gb_quantity_study die = {
 static const struct gb_quantity table[] = {
     {"E", "GPa", "Young's modulus of a compact", &moduli, YOUNG},
     {"nu", "1", "Poisson's ratio of a compact", &moduli, POISSON},
+    {"strength_tension", "MPa", "largest tensile stress after unloading", &strength,
+     GB_STRENGTH_TENSION},
+    {"strength_compression", "MPa", "largest stress of compression, after unloading",
+     &strength, GB_STRENGTH_COMPRESSION},
+    {"strength_shear", "MPa", "largest shear stress after unloading", &strength,
+     GB_STRENGTH_SHEAR},
+    {"broken_tension", "%", "bridges lost at that stress", &strength,
+     GB_STRENGTH_TESTS + GB_STRENGTH_TENSION},
+    {"broken_compression", "%", "bridges lost at that stress", &strength,
+     GB_STRENGTH_TESTS + GB_STRENGTH_COMPRESSION},
+    {"broken_shear", "%", "bridges lost at that stress", &strength,
+     GB_STRENGTH_TESTS + GB_STRENGTH_SHEAR},
     {"axial_springback", "%", "of the ejected compact", &die, 0},
     {"radial_springback", "%", "of the ejected compact", &die, 1},
     {"ejection_force", "mN", "largest force of ejection", &die, 2},
@@ -315,7 +399,7 @@ const struct gb_quantity *gb_quantities_find(const char *name, struct gb_error *
 int gb_quantities_axes(const struct gb_quantity_study *study)
 {
     int axes = 0;
-    while (axes < GB_QUANTITY_AXES && study->axis[axes].name != NULL) {
+    while (study->axis[axes].name != NULL) {
         axes++;
     }
     return axes;

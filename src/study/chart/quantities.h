@@ -42,7 +42,8 @@ struct gb_quantity_study {
     const char *at;   /* default mark; NULL: it has none */
     int cells;        /* of the study by default; those of the interval */
     double runs;      /* time of a cell over that of pressing it, about */
-    struct gb_quantity_axis axis[GB_QUANTITY_AXES]; /* the last ones have no name */
+    const struct gb_quantity_axis
+        *axis; /* at most GB_QUANTITY_AXES; then one without name */
     /* Errors: GB_ERR_INPUT for scenes without these quantities. */
     bool (*check)(const struct gb_params *params, struct gb_error *err);
     /* value: by `index` of the rows, NaN where the cell gives none; path: of the cell

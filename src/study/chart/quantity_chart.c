@@ -595,13 +595,17 @@ GString *gb_quantity_table_text(const struct gb_quantity_table *table)
             add_row(text, table, i);
         }
     }
-    g_string_append_printf(
+    g_string_append(
         text,
         "R reference, D the default, F Pareto-optimal in cost and deviation,\n"
         "n the interval contains 0, * recommended; CPU s of one cell, cost over that of\n"
-        "the default; share: upper bound of the deviation over half of the interval\n\n"
-        "half of the 95 %% interval of %d cells: %.3g\n",
-        quantity->study->cells, table->half_interval);
+        "the default; share: upper bound of the deviation over half of the interval\n\n");
+    if (!isfinite(table->allowed)) {
+        g_string_append(text, "two seeds of a setting are needed for an interval\n");
+        return text;
+    }
+    g_string_append_printf(text, "half of the 95 %% interval of %d cells: %.3g\n",
+                           quantity->study->cells, table->half_interval);
     const struct gb_quantity_result *chosen = gb_quantity_table_chosen(table);
     if (chosen == NULL) {
         g_string_append_printf(

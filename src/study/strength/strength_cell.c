@@ -11,12 +11,26 @@
 
 /* A cell at work. */
 struct cell {
-    struct gb_strength_options options;
-    struct gb_keep_point mark;
+    const struct gb_strength_options *options;
     const struct gb_pool_callbacks *callbacks;
     struct gb_compact top, free;
-    GString *rows;
+    struct gb_strength_broken *broken; /* of each test */
+    GString *rows;                     /* NULL: not wanted */
 };
+
+struct gb_strength_broken gb_strength_cell_unbroken(void)
+{
+    return (struct gb_strength_broken){NAN, -INFINITY, NAN, NAN, NAN};
+}
+
+void gb_strength_cell_break(struct gb_strength_broken *test, double strain,
+                            double stress_pa, double density, double broken)
+{
+    if (stress_pa > test->strength) {
+        *test = (struct gb_strength_broken){density, stress_pa, strain, broken, broken};
+    }
+    test->at_end = broken;
+}
 
 /* A test under way. */
 struct breaking {
@@ -52,7 +66,11 @@ static void add_row(struct breaking *breaking, const struct gb_point *point)
     const double number[] = {breaking->test, strain_of(breaking->test, cell, point),
                              stress_of(breaking->test, point), cell->free.point.density,
                              all > 0.0 ? 1.0 - bridges(point) / all : (double)NAN};
-    gb_study_text_numbers(cell->rows, number, G_N_ELEMENTS(number));
+    gb_strength_cell_break(&cell->broken[breaking->test], number[1], number[2], number[3],
+                           number[4]);
+    if (cell->rows != NULL) {
+        gb_study_text_numbers(cell->rows, number, G_N_ELEMENTS(number));
+    }
 }
 
 /* Beyond the peak when the stress has fallen enough. */
@@ -66,9 +84,9 @@ static bool take(void *data, const struct gb_point *point)
     add_row(breaking, point);
     breaking->peak = fmax(breaking->peak, stress);
     return !(breaking->peak > 0.0 &&
-             stress < breaking->cell->options.fall * breaking->peak &&
+             stress < breaking->cell->options->fall * breaking->peak &&
              strain_of(breaking->test, breaking->cell, point) >
-                 10.0 * breaking->cell->options.step);
+                 10.0 * breaking->cell->options->step);
 }
 
 static bool break_one(struct cell *cell, enum gb_strength_test test, struct gb_error *err)
@@ -79,30 +97,35 @@ static bool break_one(struct cell *cell, enum gb_strength_test test, struct gb_e
     const struct gb_compact_walk walk = {take, &breaking, cell->callbacks};
     add_row(&breaking, &cell->free.point);
     snprintf(leg, sizeof leg, gb_strength_options_tests[test].leg,
-             100.0 * cell->options.strain_most);
-    return gb_compact_follow(&cell->free, leg, cell->options.step, &walk, NULL, &why) !=
+             100.0 * cell->options->strain_most);
+    return gb_compact_follow(&cell->free, leg, cell->options->step, &walk, NULL, &why) !=
                GB_COMPACT_FAILED ||
            gb_error_set(err, why.code, "%s", why.text);
 }
 
-static bool measure(struct cell *cell, const struct gb_params *params, const char *path,
-                    struct gb_error *err)
+bool gb_strength_cell_measure(struct gb_strength_broken test[GB_STRENGTH_TESTS],
+                              const struct gb_params *params,
+                              const struct gb_keep_point *mark,
+                              const struct gb_strength_options *options, GString *rows,
+                              const struct gb_pool_callbacks *callbacks,
+                              struct gb_error *err)
 {
-    cell->top.sheared = true;
-    if (!gb_compact_press(&cell->top, params, &cell->mark, cell->callbacks, err)) {
-        return false;
+    struct cell cell = {
+        .options = options, .callbacks = callbacks, .broken = test, .rows = rows};
+    cell.top.sheared = true;
+    bool good = gb_compact_press(&cell.top, params, mark, callbacks, err);
+    cell.top.tolerance = options->tolerance;
+    good = good && gb_compact_unload(&cell.top, 0.0, callbacks, &cell.free, err);
+    if (rows != NULL) {
+        g_string_append(rows, "test,strain,stress_Pa,density,broken\n");
     }
-    cell->top.tolerance = cell->options.tolerance;
-    if (!gb_compact_unload(&cell->top, 0.0, cell->callbacks, &cell->free, err)) {
-        return false;
+    for (int t = 0; t < GB_STRENGTH_TESTS && good; t++) {
+        test[t] = gb_strength_cell_unbroken();
+        good = break_one(&cell, (enum gb_strength_test)t, err);
     }
-    g_string_append(cell->rows, "test,strain,stress_Pa,density,broken\n");
-    for (int t = 0; t < GB_STRENGTH_TESTS; t++) {
-        if (!break_one(cell, (enum gb_strength_test)t, err)) {
-            return false;
-        }
-    }
-    return gb_cells_answer(path, ".csv", cell->rows, err);
+    gb_compact_finish(&cell.free);
+    gb_compact_finish(&cell.top);
+    return good;
 }
 
 bool gb_strength_cell_work(const struct gb_params *params, const char *path,
@@ -110,15 +133,18 @@ bool gb_strength_cell_work(const struct gb_params *params, const char *path,
                            struct gb_error *err)
 {
     GKeyFile *question = NULL;
+    struct gb_strength_options options;
+    struct gb_keep_point mark;
+    struct gb_strength_broken test[GB_STRENGTH_TESTS];
     if (!gb_cells_question(&question, path, err)) {
         return false;
     }
-    struct cell cell = {.callbacks = callbacks, .rows = g_string_new(NULL)};
-    gb_strength_options_read(&cell.options, &cell.mark, question);
+    gb_strength_options_read(&options, &mark, question);
     g_key_file_free(question);
-    const bool good = measure(&cell, params, path, err);
-    gb_compact_finish(&cell.free);
-    gb_compact_finish(&cell.top);
-    g_string_free(cell.rows, TRUE);
+    GString *rows = g_string_new(NULL);
+    const bool good =
+        gb_strength_cell_measure(test, params, &mark, &options, rows, callbacks, err) &&
+        gb_cells_answer(path, ".csv", rows, err);
+    g_string_free(rows, TRUE);
     return good;
 }

@@ -9,29 +9,19 @@
 #include "study/compact/study_text.h"
 #include "study/strength/strength_cell.h"
 
-/* What one cell says in one test. */
-struct broken {
-    double density, strength, strain, at_peak, at_end;
-};
-
 /* Peak of the curve of a test. */
-static struct broken read_test(const struct gb_table *table, int test)
+static struct gb_strength_broken read_test(const struct gb_table *table, int test)
 {
     const double *which = gb_table_column(table, "test", NULL);
     const double *strain = gb_table_column(table, "strain", NULL);
     const double *stress = gb_table_column(table, "stress_Pa", NULL);
     const double *density = gb_table_column(table, "density", NULL);
     const double *broken = gb_table_column(table, "broken", NULL);
-    struct broken found = {NAN, -INFINITY, NAN, NAN, NAN};
+    struct gb_strength_broken found = gb_strength_cell_unbroken();
     for (size_t i = 0; i < gb_table_rows(table); i++) {
-        if (which[i] != test) {
-            continue;
+        if (which[i] == test) {
+            gb_strength_cell_break(&found, strain[i], stress[i], density[i], broken[i]);
         }
-        if (stress[i] > found.strength) {
-            found =
-                (struct broken){density[i], stress[i], strain[i], broken[i], broken[i]};
-        }
-        found.at_end = broken[i];
     }
     return found;
 }
@@ -48,8 +38,8 @@ static bool has_columns(const struct gb_table *table, struct gb_error *err)
     return true;
 }
 
-static double column_mean(const struct broken *broken, int cells, size_t member,
-                          double *error)
+static double column_mean(const struct gb_strength_broken *broken, int cells,
+                          size_t member, double *error)
 {
     double value[GB_STRENGTH_REPLICAS_MAX], mean = NAN;
     for (int c = 0; c < cells; c++) {
@@ -62,7 +52,7 @@ static double column_mean(const struct broken *broken, int cells, size_t member,
 
 static void conclude_test(struct gb_strength_study *study,
                           const struct gb_keep_point *mark, int test,
-                          const struct broken *broken, int cells)
+                          const struct gb_strength_broken *broken, int cells)
 {
     struct gb_error ignored = {0};
     double unused, strength[GB_STRENGTH_REPLICAS_MAX];
@@ -72,7 +62,7 @@ static void conclude_test(struct gb_strength_study *study,
         .cells = cells,
         .weibull = {(double)NAN, (double)NAN, (double)NAN, (double)NAN}};
 #define MEAN(member, error)                                                              \
-    column_mean(broken, cells, offsetof(struct broken, member), error)
+    column_mean(broken, cells, offsetof(struct gb_strength_broken, member), error)
     result.density = MEAN(density, &unused);
     result.strength_pa = MEAN(strength, &result.strength_error_pa);
     result.strain = MEAN(strain, &result.strain_error);
@@ -108,7 +98,7 @@ static void add_curves(struct gb_strength_study *study, const struct gb_keep_poi
 
 static bool read_cell(struct gb_strength_study *study, const struct gb_cells *cells,
                       const struct gb_cells_item *item, const struct gb_keep_point *mark,
-                      int cell, struct broken broken[GB_STRENGTH_TESTS],
+                      int cell, struct gb_strength_broken broken[GB_STRENGTH_TESTS],
                       struct gb_error *err)
 {
     char *file = g_strconcat(item->name, ".csv", NULL);
@@ -133,8 +123,9 @@ static bool conclude_mark(struct gb_strength_study *study, const struct gb_cells
 {
     const int replicas = study->options.replicas;
     const struct gb_keep_point *at = &study->options.marks.point[mark];
-    struct broken *broken = g_new(struct broken, GB_STRENGTH_TESTS * (gsize)replicas);
-    struct broken found[GB_STRENGTH_TESTS];
+    struct gb_strength_broken *broken =
+        g_new(struct gb_strength_broken, GB_STRENGTH_TESTS * (gsize)replicas);
+    struct gb_strength_broken found[GB_STRENGTH_TESTS];
     int there = 0;
     bool good = true;
     for (int c = 0; c < replicas && good; c++) {
