@@ -23,6 +23,8 @@ static const struct scene {
      {"particles.count=300", "structure.base=auto", "loading.until=300 MPa",
       "loading.unload_from="}},
     {"strength", "p1-yield-set2", 24, {"particles.count=300", "structure.base=auto"}},
+    {"yield", "p1-yield-set2", 24, {"particles.count=300", "structure.base=auto"}},
+    {"card", "default", 24, {"particles.count=300", "structure.base=auto"}},
     {"die",
      "p3-cycle",
      8,

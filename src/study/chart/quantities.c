@@ -9,13 +9,17 @@
 #include "many/die_summary.h"
 #include "many/lab/compaction_data.h"
 #include "many/single_run.h"
+#include "measure/cap/cap_fit.h"
 #include "measure/fit/compaction/compaction_fits.h"
 #include "run/moduli/moduli_table.h"
 #include "scene/loading_kind.h"
+#include "study/card/card_cell.h"
 #include "study/compact/cells.h"
 #include "study/compact/compact.h"
 #include "study/compact/study_text.h"
 #include "study/strength/strength_cell.h"
+#include "study/yield/yield_cell.h"
+#include "study/yield/yield_surface.h"
 
 /* Factors of a number that is more accurate the smaller it is. */
 #define TIGHTER                                                                          \
@@ -113,19 +117,141 @@ static const struct gb_quantity_study moduli = {
     .name = "moduli",
     .at = "density = 0.5",
     .cells = 8,
-    .runs = 2.0,
+    .runs = 1.5,
     .axis = run_axes,
     .check = check_moduli,
     .measure = measure_moduli,
 };
 
-/* strength: the tests of a compact; how it was pressed does not vary. */
+/* Compacts: axes are the options of their study; how they are pressed does not vary. */
+
+enum { TOLERANCE, STEP };
+
+/* The default of a member of a study's options. */
+#define OWN_OPTION(study, member)                                                        \
+    static double own_##study##_##member(const struct gb_params *params,                 \
+                                         const struct gb_model *model)                   \
+    {                                                                                    \
+        struct gb_##study##_options options;                                             \
+        (void)params;                                                                    \
+        (void)model;                                                                     \
+        gb_##study##_options_init(&options);                                             \
+        return options.member;                                                           \
+    }
 
 static bool check_compact(const struct gb_params *params, struct gb_error *err)
 {
     struct gb_params ignored;
     return gb_compact_params(&ignored, params, err);
 }
+
+/* yield: the surface of one cell. */
+
+OWN_OPTION(yield, tolerance)
+OWN_OPTION(yield, step)
+
+enum { HALF_P, HALF_Q, TENSION_END };
+
+static bool measure_yield(double value[GB_QUANTITY_VALUES],
+                          const struct gb_params *params,
+                          const struct gb_quantity_ask *ask, const char *path,
+                          const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    (void)path;
+    struct gb_yield_options options;
+    struct gb_yield_point point[GB_YIELD_DIRECTIONS_MAX];
+    struct gb_yield_surface surface = {.offset = 0.0};
+    struct gb_params own;
+    double top_pa[2];
+    gb_yield_options_init(&options);
+    options.tolerance = ask->setting[TOLERANCE];
+    options.step = ask->setting[STEP];
+    const struct gb_yield_surface_data data = {point, &top_pa[0], &top_pa[1], 1,
+                                               options.directions};
+    if (!gb_compact_params(&own, params, err) ||
+        !gb_yield_cell_measure(point, top_pa, &own, &ask->mark, &options, callbacks,
+                               err) ||
+        !gb_yield_surface_measure(&surface, &data, err)) {
+        return false;
+    }
+    value[HALF_P] = 1e-6 * surface.quantity[GB_YIELD_HALF_P].value;
+    value[HALF_Q] = 1e-6 * surface.quantity[GB_YIELD_HALF_Q].value;
+    value[TENSION_END] = 1e-6 * surface.quantity[GB_YIELD_TENSION].value;
+    return true;
+}
+
+static const struct gb_quantity_axis yield_axes[] = {
+    {"tolerance", GB_DIM_NONE, TIGHTER, 0.25, own_yield_tolerance, NULL},
+    {"step", GB_DIM_FRACTION, TIGHTER, 0.6, own_yield_step, NULL},
+    {0},
+};
+
+static const struct gb_quantity_study yield = {
+    .name = "yield",
+    .at = "density = 0.5",
+    .cells = 8,
+    .runs = 0.6,
+    .axis = yield_axes,
+    .check = check_compact,
+    .measure = measure_yield,
+};
+
+/* card: the surface of one compact of one cell. */
+
+OWN_OPTION(card, tolerance)
+OWN_OPTION(card, step)
+
+enum { CARD_D, CARD_BETA, CARD_R, CARD_P_B, CARD_YOUNG, CARD_POISSON };
+
+static bool measure_card(double value[GB_QUANTITY_VALUES], const struct gb_params *params,
+                         const struct gb_quantity_ask *ask, const char *path,
+                         const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    (void)path;
+    struct gb_card_options options;
+    struct gb_card_cell cell = {.point = NULL};
+    struct gb_cap_fit cap;
+    struct gb_error ignored = {0};
+    gb_card_options_init(&options);
+    options.density[0] = ask->mark.value;
+    options.levels = 1;
+    options.tolerance = ask->setting[TOLERANCE];
+    options.step = ask->setting[STEP];
+    const bool good = gb_card_cell_measure(&cell, params, 1, &options, callbacks, err);
+    if (good && gb_cap_fit(&cap, (const struct gb_yield_point *)(void *)cell.point->data,
+                           cell.point->len, options.transition, options.flow, &ignored)) {
+        value[CARD_D] = 1e-6 * cap.d.value;
+        value[CARD_BETA] = cap.beta.value * 180.0 / G_PI;
+        value[CARD_R] = cap.r.value;
+        value[CARD_P_B] = 1e-6 * cap.p_b.value;
+    }
+    if (good) {
+        const double bulk = cell.level[0].bulk, shear = cell.level[0].shear_modulus;
+        value[CARD_YOUNG] = 1e-9 * 9.0 * bulk * shear / (3.0 * bulk + shear);
+        value[CARD_POISSON] = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
+    }
+    gb_card_cell_finish(&cell);
+    return good;
+}
+
+static const struct gb_quantity_axis card_axes[] = {
+    {"tolerance", GB_DIM_NONE, TIGHTER, 0.25, own_card_tolerance, NULL},
+    {"step", GB_DIM_FRACTION, TIGHTER, 0.6, own_card_step, NULL},
+    {0},
+};
+
+static const struct gb_quantity_study card = {
+    .name = "card",
+    .at = "density = 0.5",
+    .by_density = true,
+    .cells = 8,
+    .runs = 1.2,
+    .axis = card_axes,
+    .check = check_compact,
+    .measure = measure_card,
+};
+
+/* strength: the tests of a compact. */
 
 static double own_strength_tolerance(const struct gb_params *params,
                                      const struct gb_model *model)
@@ -135,15 +261,7 @@ static double own_strength_tolerance(const struct gb_params *params,
     return isnan(options.tolerance) ? own_tolerance(params, model) : options.tolerance;
 }
 
-static double own_strength_step(const struct gb_params *params,
-                                const struct gb_model *model)
-{
-    struct gb_strength_options options;
-    (void)params;
-    (void)model;
-    gb_strength_options_init(&options);
-    return options.step;
-}
+OWN_OPTION(strength, step)
 
 static bool measure_strength(double value[GB_QUANTITY_VALUES],
                              const struct gb_params *params,
@@ -156,8 +274,8 @@ static bool measure_strength(double value[GB_QUANTITY_VALUES],
     struct gb_strength_broken test[GB_STRENGTH_TESTS];
     struct gb_params own;
     gb_strength_options_init(&options);
-    options.tolerance = ask->setting[0];
-    options.step = ask->setting[1];
+    options.tolerance = ask->setting[TOLERANCE];
+    options.step = ask->setting[STEP];
     if (!gb_compact_params(&own, params, err)) {
         return false;
     }
@@ -183,7 +301,7 @@ static const struct gb_quantity_study strength = {
     .name = "strength",
     .at = "density = 0.5",
     .cells = 8,
-    .runs = 3.0,
+    .runs = 0.5,
     .axis = strength_axes,
     .check = check_compact,
     .measure = measure_strength,
@@ -353,6 +471,15 @@ static const struct gb_quantity_study die = {
 static const struct gb_quantity table[] = {
     {"E", "GPa", "Young's modulus of a compact", &moduli, YOUNG},
     {"nu", "1", "Poisson's ratio of a compact", &moduli, POISSON},
+    {"yield_half_p", "MPa", "semi-axis p of the yield surface", &yield, HALF_P},
+    {"yield_half_q", "MPa", "semi-axis q of the yield surface", &yield, HALF_Q},
+    {"yield_tension", "MPa", "tension end of the yield surface", &yield, TENSION_END},
+    {"d", "MPa", "cohesion of the card", &card, CARD_D},
+    {"beta", "deg", "angle of friction of the card", &card, CARD_BETA},
+    {"R", "1", "shape of the cap of the card", &card, CARD_R},
+    {"p_b", "MPa", "yield pressure of the card", &card, CARD_P_B},
+    {"card_E", "GPa", "Young's modulus of the card", &card, CARD_YOUNG},
+    {"card_nu", "1", "Poisson's ratio of the card", &card, CARD_POISSON},
     {"strength_tension", "MPa", "largest tensile stress after unloading", &strength,
      GB_STRENGTH_TENSION},
     {"strength_compression", "MPa", "largest stress of compression, after unloading",

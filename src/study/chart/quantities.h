@@ -40,6 +40,7 @@ struct gb_quantity_ask {
 struct gb_quantity_study {
     const char *name; /* the command that reports its quantities */
     const char *at;   /* default mark; NULL: it has none */
+    bool by_density;  /* marks are densities alone */
     int cells;        /* of the study by default; those of the interval */
     double runs;      /* time of a cell over that of pressing it, about */
     const struct gb_quantity_axis

@@ -214,6 +214,11 @@ static bool read_mark(struct gb_quantity_chart *chart, const char *at,
                             "'density = 0.5' or '100 MPa'",
                             text);
     }
+    if (chart->study->by_density && !points.point[0].by_density) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--at %.80s: expected a density for a quantity of %s", text,
+                            chart->study->name);
+    }
     chart->mark = points.point[0];
     return true;
 }

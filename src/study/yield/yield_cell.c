@@ -1,6 +1,7 @@
 #include "study/yield/yield_cell.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "study/compact/cells.h"
 #include "study/compact/offset_probe.h"
@@ -16,6 +17,7 @@ struct cell {
     const struct gb_pool_callbacks *callbacks;
     struct gb_compact top, inside;
     struct gb_compact_elastic elastic;
+    struct gb_yield_point chosen[GB_YIELD_DIRECTIONS_MAX]; /* at the chosen offset */
     GString *points, *paths;
 };
 
@@ -37,6 +39,12 @@ static void add_point(struct cell *cell, int direction, int offset,
         .p_pa = none, .q_pa = none, .flow_volume = none, .flow_shear = none};
     const struct gb_compact_state top = gb_compact_state_of(&cell->top.point);
     gb_offset_probe_point(probe, size, flow_end, &point);
+    if (offset == GB_YIELD_OFFSET_CHOSEN) {
+        cell->chosen[direction] = point;
+        cell->chosen[direction].density = cell->top.point.density;
+        cell->chosen[direction].direction =
+            gb_yield_options_direction(&cell->options, direction);
+    }
     g_string_append_printf(cell->points, "%d,%d", direction, offset);
     const double number[] = {
         cell->top.point.density, top.p,           top.q, point.p_pa, point.q_pa,
@@ -85,7 +93,7 @@ static bool probe_one(struct cell *cell, int direction, struct gb_error *err)
     return good;
 }
 
-static bool probe_all(struct cell *cell, const char *path, struct gb_error *err)
+static bool probe_all(struct cell *cell, struct gb_error *err)
 {
     g_string_append(cell->points, "direction,offset,density,top_p_Pa,top_q_Pa,p_Pa,q_Pa,"
                                   "flow_volume,flow_shear\n");
@@ -95,11 +103,10 @@ static bool probe_all(struct cell *cell, const char *path, struct gb_error *err)
             return false;
         }
     }
-    return gb_cells_answer(path, ".paths.csv", cell->paths, err) &&
-           gb_cells_answer(path, ".csv", cell->points, err);
+    return true;
 }
 
-static bool measure(struct cell *cell, const struct gb_params *params, const char *path,
+static bool measure(struct cell *cell, const struct gb_params *params,
                     struct gb_error *err)
 {
     if (!gb_compact_press(&cell->top, params, &cell->mark, cell->callbacks, err)) {
@@ -110,25 +117,58 @@ static bool measure(struct cell *cell, const struct gb_params *params, const cha
         cell->options.inside * gb_compact_state_of(&cell->top.point).p;
     return gb_compact_unload(&cell->top, pressure, cell->callbacks, &cell->inside, err) &&
            gb_compact_elastic(&cell->elastic, &cell->inside, cell->callbacks, err) &&
-           probe_all(cell, path, err);
+           probe_all(cell, err);
+}
+
+static void cell_init(struct cell *cell, const struct gb_pool_callbacks *callbacks)
+{
+    *cell = (struct cell){.callbacks = callbacks,
+                          .points = g_string_new(NULL),
+                          .paths = g_string_new(NULL)};
+}
+
+static void cell_finish(struct cell *cell)
+{
+    gb_compact_finish(&cell->inside);
+    gb_compact_finish(&cell->top);
+    g_string_free(cell->points, TRUE);
+    g_string_free(cell->paths, TRUE);
+}
+
+bool gb_yield_cell_measure(struct gb_yield_point point[GB_YIELD_DIRECTIONS_MAX],
+                           double top_pa[2], const struct gb_params *params,
+                           const struct gb_keep_point *mark,
+                           const struct gb_yield_options *options,
+                           const struct gb_pool_callbacks *callbacks,
+                           struct gb_error *err)
+{
+    struct cell cell;
+    cell_init(&cell, callbacks);
+    cell.options = *options;
+    cell.mark = *mark;
+    const bool good = measure(&cell, params, err);
+    const struct gb_compact_state top = gb_compact_state_of(&cell.top.point);
+    memcpy(point, cell.chosen, sizeof cell.chosen);
+    top_pa[0] = top.p;
+    top_pa[1] = top.q;
+    cell_finish(&cell);
+    return good;
 }
 
 bool gb_yield_cell_work(const struct gb_params *params, const char *path,
                         const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     GKeyFile *question = NULL;
+    struct cell cell;
     if (!gb_cells_question(&question, path, err)) {
         return false;
     }
-    struct cell cell = {.callbacks = callbacks,
-                        .points = g_string_new(NULL),
-                        .paths = g_string_new(NULL)};
+    cell_init(&cell, callbacks);
     gb_yield_options_read(&cell.options, &cell.mark, question);
     g_key_file_free(question);
-    const bool good = measure(&cell, params, path, err);
-    gb_compact_finish(&cell.inside);
-    gb_compact_finish(&cell.top);
-    g_string_free(cell.points, TRUE);
-    g_string_free(cell.paths, TRUE);
+    const bool good = measure(&cell, params, err) &&
+                      gb_cells_answer(path, ".paths.csv", cell.paths, err) &&
+                      gb_cells_answer(path, ".csv", cell.points, err);
+    cell_finish(&cell);
     return good;
 }
