@@ -98,7 +98,10 @@ static void test_study(const void *data)
     for (const struct gb_quantity *row = gb_quantities(); row->name != NULL; row++) {
         moved += row->study == study && !compare(&chart, row);
     }
-    g_assert_cmpint(moved, ==, 0);
+    if (moved > 0) {
+        g_test_message("%d quantities move by more than half of their intervals", moved);
+        g_test_fail();
+    }
     gb_quantity_chart_finish(&chart);
     g_free(directory);
 }
