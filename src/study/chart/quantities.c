@@ -253,14 +253,7 @@ static const struct gb_quantity_study card = {
 
 /* strength: the tests of a compact. */
 
-static double own_strength_tolerance(const struct gb_params *params,
-                                     const struct gb_model *model)
-{
-    struct gb_strength_options options;
-    gb_strength_options_init(&options);
-    return isnan(options.tolerance) ? own_tolerance(params, model) : options.tolerance;
-}
-
+OWN_OPTION(strength, tolerance)
 OWN_OPTION(strength, step)
 
 static bool measure_strength(double value[GB_QUANTITY_VALUES],
