@@ -237,9 +237,9 @@ static void test_known(void)
     g_assert_cmpfloat_with_epsilon(gb_quantity_chart_spent_s(&chart),
                                    4.0 * (40.0 + 2.0 + 1.0 + 0.5 + 8.0) + 0.2, 1e-9);
     struct gb_quantity_table table;
-    gb_quantity_table_init(&table, &chart, find("E"), NAN);
+    gb_quantity_chart_table_init(&table, &chart, find("E"), NAN);
     const double t3 = gsl_cdf_tdist_Pinv(0.975, 3.0);
-    const struct gb_quantity_result *row = gb_quantity_table_at(&table, 0);
+    const struct gb_quantity_result *row = gb_quantity_chart_table_at(&table, 0);
     g_assert_cmpfloat_with_epsilon(row[1].error, 1.5, 1e-9);
     g_assert_cmpfloat_with_epsilon(row[1].error_95, t3 * 0.01 * sqrt(4.0 / 3.0) / 2.0,
                                    1e-9);
@@ -255,14 +255,15 @@ static void test_known(void)
     g_assert_true(row[1].front && row[2].front && row[4].front && row[3].front);
     g_assert_cmpint(row[5].failed, ==, 1);
     g_assert_false(row[5].front || row[5].chosen);
-    g_assert_true(gb_quantity_table_chosen(&table) == &row[1]);
-    gb_quantity_table_finish(&table);
-    gb_quantity_table_init(&table, &chart, find("E"), 0.2);
-    g_assert_true(gb_quantity_table_chosen(&table) == gb_quantity_table_at(&table, 4));
-    gb_quantity_table_finish(&table);
-    gb_quantity_table_init(&table, &chart, find("E"), 1e-3);
-    g_assert_null(gb_quantity_table_chosen(&table));
-    gb_quantity_table_finish(&table);
+    g_assert_true(gb_quantity_chart_table_chosen(&table) == &row[1]);
+    gb_quantity_chart_table_finish(&table);
+    gb_quantity_chart_table_init(&table, &chart, find("E"), 0.2);
+    g_assert_true(gb_quantity_chart_table_chosen(&table) ==
+                  gb_quantity_chart_table_at(&table, 4));
+    gb_quantity_chart_table_finish(&table);
+    gb_quantity_chart_table_init(&table, &chart, find("E"), 1e-3);
+    g_assert_null(gb_quantity_chart_table_chosen(&table));
+    gb_quantity_chart_table_finish(&table);
     gb_quantity_chart_finish(&chart);
 
     /* another scene has no answers yet */

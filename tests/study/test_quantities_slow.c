@@ -64,16 +64,16 @@ static bool compare(const struct gb_quantity_chart *chart,
                     const struct gb_quantity *quantity)
 {
     struct gb_quantity_table table;
-    gb_quantity_table_init(&table, chart, quantity, NAN);
-    const struct gb_quantity_result *tight = gb_quantity_table_at(&table, 0);
-    const struct gb_quantity_result *own = gb_quantity_table_at(&table, 1);
+    gb_quantity_chart_table_init(&table, chart, quantity, NAN);
+    const struct gb_quantity_result *tight = gb_quantity_chart_table_at(&table, 0);
+    const struct gb_quantity_result *own = gb_quantity_chart_table_at(&table, 1);
     const double shift = tight->value - own->value;
     g_test_message("%-20s %-5s %10.4g +- %-9.2g %10.4g +- %-9.2g %6.2f  %5.1f",
                    quantity->name, quantity->unit, own->value, table.half_interval,
                    tight->value, own->error_95, shift / table.half_interval, tight->cost);
     const bool good =
         own->failed == 0 && tight->failed == 0 && fabs(shift) <= table.half_interval;
-    gb_quantity_table_finish(&table);
+    gb_quantity_chart_table_finish(&table);
     return good;
 }
 

@@ -304,18 +304,18 @@ static bool write_quantities(const struct chart *chart, const struct gb_quantity
         if (row->study != wanted->study) {
             continue;
         }
-        gb_quantity_table_init(&table, &chart->quantities, row,
-                               row == wanted && chart->allowed > 0.0 ? chart->allowed
-                                                                     : (double)NAN);
-        GString *csv = gb_quantity_table_csv(&table, comment);
+        gb_quantity_chart_table_init(
+            &table, &chart->quantities, row,
+            row == wanted && chart->allowed > 0.0 ? chart->allowed : (double)NAN);
+        GString *csv = gb_quantity_chart_table_csv(&table, comment);
         char *path = g_strconcat(chart->directory, "/", row->name, ".csv", NULL);
         good = gb_file_replace(path, csv->str, csv->len, err);
         if (good && row == wanted) {
-            print_text(gb_quantity_table_text(&table));
+            print_text(gb_quantity_chart_table_text(&table));
         }
         g_string_free(csv, TRUE);
         g_free(path);
-        gb_quantity_table_finish(&table);
+        gb_quantity_chart_table_finish(&table);
     }
     g_free(comment);
     return good;

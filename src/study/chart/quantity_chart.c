@@ -422,7 +422,7 @@ static bool is_complete(const struct gb_quantity_table *table,
                         const struct gb_quantity_result *row)
 {
     return isfinite(row->bound) && row->failed == 0 &&
-           row->seeds == gb_quantity_table_at(table, 0)->seeds;
+           row->seeds == gb_quantity_chart_table_at(table, 0)->seeds;
 }
 
 static void mark(struct gb_quantity_table *table)
@@ -444,9 +444,9 @@ static void mark(struct gb_quantity_table *table)
     }
 }
 
-void gb_quantity_table_init(struct gb_quantity_table *table,
-                            const struct gb_quantity_chart *chart,
-                            const struct gb_quantity *quantity, double allowed)
+void gb_quantity_chart_table_init(struct gb_quantity_table *table,
+                                  const struct gb_quantity_chart *chart,
+                                  const struct gb_quantity *quantity, double allowed)
 {
     const double cells = chart->study->cells;
     *table = (struct gb_quantity_table){
@@ -472,7 +472,7 @@ void gb_quantity_table_init(struct gb_quantity_table *table,
     mark(table);
 }
 
-void gb_quantity_table_finish(struct gb_quantity_table *table)
+void gb_quantity_chart_table_finish(struct gb_quantity_table *table)
 {
     if (table->row != NULL) {
         g_array_free(table->row, TRUE);
@@ -481,25 +481,25 @@ void gb_quantity_table_finish(struct gb_quantity_table *table)
 }
 
 const struct gb_quantity_result *
-gb_quantity_table_at(const struct gb_quantity_table *table, size_t row)
+gb_quantity_chart_table_at(const struct gb_quantity_table *table, size_t row)
 {
     return &g_array_index(table->row, struct gb_quantity_result, row);
 }
 
 const struct gb_quantity_result *
-gb_quantity_table_chosen(const struct gb_quantity_table *table)
+gb_quantity_chart_table_chosen(const struct gb_quantity_table *table)
 {
     for (guint i = 0; i < table->row->len; i++) {
-        if (gb_quantity_table_at(table, i)->chosen) {
-            return gb_quantity_table_at(table, i);
+        if (gb_quantity_chart_table_at(table, i)->chosen) {
+            return gb_quantity_chart_table_at(table, i);
         }
     }
     return NULL;
 }
 
-char *gb_quantity_describe(const struct gb_quantity_study *study,
-                           const struct gb_quantity_setting *setting, char *buffer,
-                           size_t size)
+char *gb_quantity_chart_describe(const struct gb_quantity_study *study,
+                                 const struct gb_quantity_setting *setting, char *buffer,
+                                 size_t size)
 {
     buffer[0] = '\0';
     for (int a = 0; a < gb_quantities_axes(study); a++) {
@@ -514,7 +514,8 @@ char *gb_quantity_describe(const struct gb_quantity_study *study,
     return buffer;
 }
 
-GString *gb_quantity_table_csv(const struct gb_quantity_table *table, const char *comment)
+GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
+                                     const char *comment)
 {
     const struct gb_quantity_study *study = table->quantity->study;
     const int axes = gb_quantities_axes(study);
@@ -529,7 +530,7 @@ GString *gb_quantity_table_csv(const struct gb_quantity_table *table, const char
                     "error_se,error_95,bound,half_interval,noise_limited,front,"
                     "chosen\n");
     for (guint i = 0; i < table->row->len; i++) {
-        const struct gb_quantity_result *row = gb_quantity_table_at(table, i);
+        const struct gb_quantity_result *row = gb_quantity_chart_table_at(table, i);
         if (row->seeds == 0) {
             continue;
         }
@@ -560,7 +561,7 @@ GString *gb_quantity_table_csv(const struct gb_quantity_table *table, const char
 
 static void add_row(GString *text, const struct gb_quantity_table *table, guint i)
 {
-    const struct gb_quantity_result *row = gb_quantity_table_at(table, i);
+    const struct gb_quantity_result *row = gb_quantity_chart_table_at(table, i);
     char setting[DESCRIPTION], deviation[64] = "", share[16] = "";
     if (i == 0) {
         snprintf(deviation, sizeof deviation, "value %.4g", row->value);
@@ -573,18 +574,18 @@ static void add_row(GString *text, const struct gb_quantity_table *table, guint 
         snprintf(share, sizeof share, "%.2f", row->bound / table->half_interval);
     }
     const int wide = (int)(strlen(deviation) - (size_t)g_utf8_strlen(deviation, -1));
-    g_string_append_printf(text, "%c%c%c%c %7.3g  %5.2f  %5d  %-*s  %5s  %s\n",
-                           i == 0   ? 'R'
-                           : i == 1 ? 'D'
-                                    : ' ',
-                           row->front ? 'F' : ' ', row->noise_limited ? 'n' : ' ',
-                           row->chosen ? '*' : ' ', row->cpu_s, row->cost, row->seeds,
-                           20 + wide, deviation, share,
-                           gb_quantity_describe(table->quantity->study, &row->setting,
-                                                setting, sizeof setting));
+    g_string_append_printf(
+        text, "%c%c%c%c %7.3g  %5.2f  %5d  %-*s  %5s  %s\n",
+        i == 0   ? 'R'
+        : i == 1 ? 'D'
+                 : ' ',
+        row->front ? 'F' : ' ', row->noise_limited ? 'n' : ' ', row->chosen ? '*' : ' ',
+        row->cpu_s, row->cost, row->seeds, 20 + wide, deviation, share,
+        gb_quantity_chart_describe(table->quantity->study, &row->setting, setting,
+                                   sizeof setting));
 }
 
-GString *gb_quantity_table_text(const struct gb_quantity_table *table)
+GString *gb_quantity_chart_table_text(const struct gb_quantity_table *table)
 {
     const struct gb_quantity *quantity = table->quantity;
     const bool unit = strcmp(quantity->unit, "1") != 0;
@@ -596,7 +597,7 @@ GString *gb_quantity_table_text(const struct gb_quantity_table *table)
     g_string_append(text, "       CPU s   cost  seeds  deviation, 95 %       share  "
                           "setting\n");
     for (guint i = 0; i < table->row->len; i++) {
-        if (gb_quantity_table_at(table, i)->seeds > 0) {
+        if (gb_quantity_chart_table_at(table, i)->seeds > 0) {
             add_row(text, table, i);
         }
     }
@@ -611,7 +612,7 @@ GString *gb_quantity_table_text(const struct gb_quantity_table *table)
     }
     g_string_append_printf(text, "half of the 95 %% interval of %d cells: %.3g\n",
                            quantity->study->cells, table->half_interval);
-    const struct gb_quantity_result *chosen = gb_quantity_table_chosen(table);
+    const struct gb_quantity_result *chosen = gb_quantity_chart_table_chosen(table);
     if (chosen == NULL) {
         g_string_append_printf(
             text,
@@ -624,8 +625,8 @@ GString *gb_quantity_table_text(const struct gb_quantity_table *table)
             "cheapest setting that deviates by less than %.3g: %s (%.2g times the "
             "default's time%s)\n",
             table->allowed,
-            gb_quantity_describe(quantity->study, &chosen->setting, setting,
-                                 sizeof setting),
+            gb_quantity_chart_describe(quantity->study, &chosen->setting, setting,
+                                       sizeof setting),
             chosen->cost, chosen->cost > cost_most ? ", which is more than three" : "");
     }
     return text;

@@ -83,25 +83,25 @@ struct gb_quantity_table {
 };
 
 /* allowed: limit of the bound; NaN: the half interval. */
-void gb_quantity_table_init(struct gb_quantity_table *table,
-                            const struct gb_quantity_chart *chart,
-                            const struct gb_quantity *quantity, double allowed);
-void gb_quantity_table_finish(struct gb_quantity_table *table); /* zeroed is fine */
+void gb_quantity_chart_table_init(struct gb_quantity_table *table,
+                                  const struct gb_quantity_chart *chart,
+                                  const struct gb_quantity *quantity, double allowed);
+void gb_quantity_chart_table_finish(struct gb_quantity_table *table); /* zeroed is fine */
 const struct gb_quantity_result *
-gb_quantity_table_at(const struct gb_quantity_table *table, size_t row);
+gb_quantity_chart_table_at(const struct gb_quantity_table *table, size_t row);
 /* The recommended row, or NULL. */
 const struct gb_quantity_result *
-gb_quantity_table_chosen(const struct gb_quantity_table *table);
+gb_quantity_chart_table_chosen(const struct gb_quantity_table *table);
 
 /* "tolerance 0.001, step 0.05 %".  Returns buffer. */
-char *gb_quantity_describe(const struct gb_quantity_study *study,
-                           const struct gb_quantity_setting *setting, char *buffer,
-                           size_t size);
+char *gb_quantity_chart_describe(const struct gb_quantity_study *study,
+                                 const struct gb_quantity_setting *setting, char *buffer,
+                                 size_t size);
 
 /* As CSV, with '#' lines of comment in front, and as text with the advice.
  * g_string_free. */
-GString *gb_quantity_table_csv(const struct gb_quantity_table *table,
-                               const char *comment);
-GString *gb_quantity_table_text(const struct gb_quantity_table *table);
+GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
+                                     const char *comment);
+GString *gb_quantity_chart_table_text(const struct gb_quantity_table *table);
 
 #endif
