@@ -28,7 +28,8 @@ static const struct scene {
     {"die",
      "p3-cycle",
      8,
-     {"particles.count=150", "die.diameter=26 um", "die.central=22 um"}},
+     {"particles.count=150", "die.diameter=25 um", "die.central=15 um",
+      "particles.table=number: 4 um 0.4; 5 um 0.4; 7 um 0.2"}},
 };
 
 static char *folder;
