@@ -37,7 +37,8 @@ struct chart {
     double spent_s;
     int missing;                         /* cells beyond the budget */
     struct gb_quantity_chart quantities; /* of --quantity */
-    double since_s;                      /* clock, when the last cell of them ended */
+    double before_s; /* processor time of their cells before this command */
+    double since_s;  /* clock, when the last of them ended */
 };
 
 static bool cancelled(void *data, double cpu_s)
@@ -269,8 +270,9 @@ static void quantity_progress(void *data, const struct gb_cells_item *cell, size
                               size_t total)
 {
     struct chart *chart = data;
-    const double jobs = chart->jobs > 0 ? chart->jobs : (double)g_get_num_processors();
-    chart->spent_s += jobs * (gb_clock_s() - chart->since_s);
+    struct gb_error ignored;
+    (void)gb_quantity_chart_read(&chart->quantities, &ignored);
+    chart->spent_s = gb_quantity_chart_spent_s(&chart->quantities) - chart->before_s;
     chart->since_s = gb_clock_s();
     if (cell->error.code != GB_ERR_CANCELLED) {
         gb_progress_say(&chart->progress, "%zu of %zu  %s%s%s", done, total, cell->name,
@@ -345,6 +347,7 @@ static bool perform_quantity(struct chart *chart, char **words, char **sets,
                      gb_cost_duration(cost_s, cost, sizeof cost));
     (void)fflush(stdout);
     chart->since_s = gb_clock_s();
+    chart->before_s = gb_quantity_chart_spent_s(&chart->quantities);
     bool good = gb_quantity_chart_work(&chart->quantities, chart->jobs, &callbacks, &why);
     const bool spent = why.code == GB_ERR_CANCELLED && gb_signals_caught() == 0;
     if (!write_quantities(chart, wanted, err)) {

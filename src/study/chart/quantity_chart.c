@@ -255,8 +255,7 @@ static void add_cells(struct gb_quantity_chart *chart)
     }
 }
 
-/* Answers that are there. */
-static bool read_cells(struct gb_quantity_chart *chart, struct gb_error *err)
+bool gb_quantity_chart_read(struct gb_quantity_chart *chart, struct gb_error *err)
 {
     gb_cells_find_done(&chart->cells);
     for (guint i = 0; i < chart->cells.list->len; i++) {
@@ -321,7 +320,7 @@ bool gb_quantity_chart_init(struct gb_quantity_chart *chart,
     }
     add_cells(chart);
     chart->cell = g_new0(struct gb_quantity_cell, chart->cells.list->len);
-    return read_cells(chart, err);
+    return gb_quantity_chart_read(chart, err);
 }
 
 void gb_quantity_chart_finish(struct gb_quantity_chart *chart)
@@ -371,7 +370,7 @@ bool gb_quantity_chart_work(struct gb_quantity_chart *chart, int jobs,
     const bool worked =
         gb_cells_work(&chart->cells, jobs, gb_quantities_work, callbacks, err);
     struct gb_error why = {0};
-    const bool read = read_cells(chart, &why);
+    const bool read = gb_quantity_chart_read(chart, &why);
     if (worked && !read) {
         return gb_error_set(err, why.code, "%s", why.text);
     }

@@ -47,6 +47,10 @@ bool gb_quantity_chart_init(struct gb_quantity_chart *chart,
                             int seeds, const char *directory, struct gb_error *err);
 void gb_quantity_chart_finish(struct gb_quantity_chart *chart); /* zeroed is fine */
 
+/* Reads the cells that have been measured meanwhile.  Errors: GB_ERR_INPUT for a damaged
+ * file. */
+bool gb_quantity_chart_read(struct gb_quantity_chart *chart, struct gb_error *err);
+
 /* Processor time of the missing cells, s, by those that are there; without any within a
  * factor of three.  *missing: their number. */
 double gb_quantity_chart_cost_s(const struct gb_quantity_chart *chart, size_t *missing);
