@@ -427,6 +427,23 @@
 /* A copy with a larger one has no equilibrium to probe. */
 #define GB_PROBE_RESIDUAL_MAX 1e-5
 
+/* Rounding of a history in single precision.  An overlap, or the deepest one of a bridge,
+ * is off by up to this (d): the difference of two numbers near 1 with 24 bits.  A spring is
+ * cut up to GB_F32_CAP_SHARE below its cap, and the cap is off by GB_F32_CAP_POWER times
+ * the relative error of the overlap: it grows with up to its square.  The share is not
+ * above GB_F32_CAP_SHARE_MAX where contacts only just touch.  Smaller: springs that slide
+ * are found sticking, and moduli of a run in single precision are too high.  Larger:
+ * springs near their caps are lengthened to them. */
+#define GB_F32_LENGTH        2e-7
+#define GB_F32_CAP_SHARE     1e-5
+#define GB_F32_CAP_POWER     2.0
+#define GB_F32_CAP_SHARE_MAX 0.01
+
+/* The copy of a world in single precision is put in equilibrium again until springs change
+ * by less than this (d), or this often: the smallest probes move contacts by 1e-8. */
+#define GB_PROBE_CAPS        1e-13
+#define GB_PROBE_CAPS_ROUNDS 20
+
 /* Force evaluations of FIRE on a copy. */
 #define GB_PROBE_EVALUATIONS_MAX 100000
 

@@ -231,9 +231,99 @@ static void test_lattices(void)
     }
 }
 
+/* A lattice squeezed along z, then stretched, in steps of 0.002; it stays affine. */
+struct pressed_case {
+    const char *kind, *count;
+    const char *more[3]; /* assignments */
+    int squeezes, stretches;
+    bool slides; /* in the last step, to be sure */
+};
+
+static struct gb_moduli press_and_probe(const struct pressed_case *of,
+                                        const char *precision)
+{
+    char text[4][64];
+    struct gb_error err = {0};
+    struct gb_moduli moduli;
+    const struct gb_moduli_options options = {.range = false};
+    snprintf(text[0], sizeof text[0], "structure.kind=%s", of->kind);
+    snprintf(text[1], sizeof text[1], "particles.count=%s", of->count);
+    snprintf(text[2], sizeof text[2], "structure.overlap=0.01");
+    snprintf(text[3], sizeof text[3], "numerics.precision=%s", precision);
+    struct gb_params params =
+        scene_params(text[0], text[1], text[2], text[3], of->more[0], of->more[1],
+                     of->more[1] ? of->more[2] : NULL, NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    g_assert_true(model.numerics.single == (precision[0] == 's'));
+    scene_evaluate(world);
+    for (int k = 0; k < of->squeezes + of->stretches; k++) {
+        scene_squeeze(world, k < of->squeezes ? 0.002 : -0.002);
+        scene_evaluate(world);
+    }
+    g_assert_true(!of->slides || gb_world_tally(world)->sliding > 0);
+    const uint64_t before = gb_world_hash(world);
+    if (!gb_moduli_measure(&moduli, world, &options, &err)) {
+        g_error("%s", err.text);
+    }
+    g_assert_cmpuint(gb_world_hash(world), ==, before);
+    gb_world_destroy(world);
+    return moduli;
+}
+
+/* Springs at their caps and bridges at their strength, at their deepest overlap or peeling:
+ * a strain makes them slide one way and stick the other in both precisions.  Positions are
+ * exact in single precision where the count is 4 x 4^3, and rounded elsewhere. */
+static void test_precisions(void)
+{
+    static const char none[] = "contact.bridge_length=1 d";
+    static const struct pressed_case cases[] = {
+        {"fcc", "256", {none, "contact.mu=0.05"}, 10, 0, true},
+        {"fcc", "256", {none, "contact.mu=0.05"}, 40, 0, true},
+        {"fcc", "500", {none, "contact.mu=0.3"}, 60, 0, true},
+        {"fcc", "500", {none, "contact.mu=0.05"}, 40, 1, false},
+        {"fcc", "500", {none, "contact.mu=0.05"}, 40, 5, true},
+        {"fcc", "500", {none, "contact.mu=0.02", "contact.mu_pivot=0.1"}, 30, 0, true},
+        {"bcc", "250", {none, "contact.mu=0.05"}, 20, 0, true},
+        {"bcc", "250", {none, "contact.mu=0.3"}, 60, 0, true},
+        {"bcc", "432", {none, "contact.normal=hertz"}, 60, 0, true},
+        {"sc", "125", {none, "contact.mu=0.1"}, 30, 0, false},
+        {"sc", "216", {"contact.mu=0.1"}, 30, 3, false},
+        {"fcc", "500", {"contact.shear_strength=200 MPa"}, 20, 0, true},
+        {"fcc", "256", {"contact.shear_strength=2 GPa"}, 40, 0, true},
+        {"fcc", "500", {"contact.shear_strength=20 GPa"}, 40, 0, false},
+        {"bcc", "250", {"contact.shear_strength=2 GPa"}, 40, 0, true},
+        {"bcc", "250", {"contact.bridge_length=0.003 d"}, 40, 4, false},
+        {"fcc", "500", {"contact.bridge_length=0.003 d"}, 40, 4, false},
+        {"fcc", "500", {"contact.bridge_radius=current"}, 60, 0, true},
+        {"bcc", "432", {"contact.relative_motion=full"}, 60, 0, true},
+    };
+    for (size_t k = 0; k < G_N_ELEMENTS(cases); k++) {
+        const struct gb_moduli exact = press_and_probe(&cases[k], "double");
+        const struct gb_moduli rounded = press_and_probe(&cases[k], "single");
+        double most = 0.0, apart = 0.0, stress = 0.0, stressed = 0.0;
+        for (int n = 0; n < 36; n++) {
+            const double c = exact.c[n / 6][n % 6];
+            most = fmax(most, fabs(c));
+            apart = fmax(apart, fabs(rounded.c[n / 6][n % 6] - c));
+        }
+        for (int n = 0; n < 9; n++) {
+            const double p = exact.pressure[n / 3][n % 3];
+            stress = fmax(stress, fabs(p));
+            stressed = fmax(stressed, fabs(rounded.pressure[n / 3][n % 3] - p));
+        }
+        g_test_message("%s %s %s: C differs by %.1e, pressure by %.1e; sizes %.1e",
+                       cases[k].kind, cases[k].count, cases[k].more[0], apart / most,
+                       stressed / stress, exact.agreement);
+        g_assert_cmpfloat(apart, <=, 1e-5 * most);
+        g_assert_cmpfloat(stressed, <=, 1e-5 * stress);
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/moduli/precisions", test_precisions);
     g_test_add_func("/moduli/lattices", test_lattices);
     return g_test_run();
 }

@@ -13,7 +13,8 @@ struct gb_virial {
 };
 
 /* The inside of gb_world, for the top files of the periodic engine only: world*.c,
- * integrate_f32.c, nonaffine.c, pair_forces.c and virial.c (docs/engine.md). */
+ * cap_rounding.c, integrate_f32.c, nonaffine.c, pair_forces.c, pair_tangent.c and virial.c
+ * (docs/engine.md). */
 struct gb_world {
     struct gb_engine engine;
     struct gb_virial *virial;      /* the last one, by virial.c */

@@ -9,6 +9,7 @@
 #include "base/vec.h"
 #include "pack/cell/nonaffine.h"
 #include "pack/cell/world_measure.h"
+#include "pack/kernel/cap_rounding.h"
 #include "scene/tolerances.h"
 
 /* Newton steps before FIRE takes over, halvings of a step, and iterations of a solution of
@@ -261,15 +262,31 @@ static bool balance(struct gb_probe *probe, struct gb_error *err)
     return gb_probe_advance(probe, err);
 }
 
+/* The same from a state in single precision, whose sliding contacts slide here as well.
+ * Each motion to equilibrium takes some of them off their caps, by less each time. */
+static bool balance_rounded(struct gb_probe *probe, struct gb_error *err)
+{
+    double most = INFINITY;
+    for (int k = 0; k < GB_PROBE_CAPS_ROUNDS && most > GB_PROBE_CAPS; k++) {
+        if (!gb_cap_rounding_undo(probe->world, &most, err) ||
+            !gb_world_evaluate(probe->world, err) || !balance(probe, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool copy_world(struct gb_probe *probe, const struct gb_world *world,
                        struct gb_error *err)
 {
+    const bool rounded = gb_world_model(world)->numerics.single;
     struct gb_world_copy *start = NULL;
     bool done =
         gb_world_create(&probe->world, &probe->model, gb_world_position(world), err) &&
         gb_world_copy_save(world, &start, err) &&
         gb_world_copy_restore(probe->world, start, err) &&
-        gb_world_evaluate(probe->world, err) && balance(probe, err);
+        gb_world_evaluate(probe->world, err) &&
+        (rounded ? balance_rounded(probe, err) : balance(probe, err));
     if (done) {
         const struct gb_nonaffine moved = gb_nonaffine_since(probe->world, start);
         probe->moved_rms = moved.rms;
