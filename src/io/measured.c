@@ -50,15 +50,15 @@ static bool find_pressure(const struct gb_table *table, struct quantity *out)
 }
 
 static bool check_row(const struct gb_table *table, size_t row, const struct quantity *q,
-                      double most, struct gb_error *err)
+                      bool from_zero, double most, struct gb_error *err)
 {
     const double value = q->value[row] * q->unit;
     const double error = q->error != NULL ? q->error[row] * q->unit : (double)NAN;
-    if (!(value > 0.0 && value <= most)) {
+    if (!((value > 0.0 || (from_zero && value == 0.0)) && value <= most)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.200s:%d: %s %g: accepted above 0, up to %g",
+                            "%.200s:%d: %s %g: accepted %s 0, up to %g",
                             gb_table_path(table), gb_table_line(table, row), q->name,
-                            q->value[row], most / q->unit);
+                            q->value[row], from_zero ? "from" : "above", most / q->unit);
     }
     if (error < 0.0) {
         return gb_error_set(
@@ -74,7 +74,7 @@ static const double density_most = 1.0;
 static const double pressure_most_pa = 1e12;
 
 static bool fill(struct gb_measured *measured, const struct gb_table *table,
-                 struct gb_error *err)
+                 bool from_zero, struct gb_error *err)
 {
     struct quantity density;
     struct quantity pressure;
@@ -85,8 +85,8 @@ static bool fill(struct gb_measured *measured, const struct gb_table *table,
                             gb_table_path(table));
     }
     for (size_t i = 0; i < measured->count; i++) {
-        if (!check_row(table, i, &density, density_most, err) ||
-            !check_row(table, i, &pressure, pressure_most_pa, err)) {
+        if (!check_row(table, i, &density, false, density_most, err) ||
+            !check_row(table, i, &pressure, from_zero, pressure_most_pa, err)) {
             return false;
         }
         measured->density[i] = density.value[i] * density.unit;
@@ -116,7 +116,7 @@ static bool reserve(struct gb_measured *measured, const char *path, size_t count
 }
 
 bool gb_measured_take(struct gb_measured **out, const struct gb_table *table,
-                      struct gb_error *err)
+                      bool from_zero, struct gb_error *err)
 {
     const char *path = gb_table_path(table);
     const size_t count = gb_table_rows(table);
@@ -125,7 +125,7 @@ bool gb_measured_take(struct gb_measured **out, const struct gb_table *table,
     if (good) {
         measured = gb_alloc_array(1, sizeof *measured, err);
         good = measured != NULL && reserve(measured, path, count, err) &&
-               fill(measured, table, err);
+               fill(measured, table, from_zero, err);
     }
     if (!good) {
         gb_measured_destroy(measured);

@@ -16,10 +16,11 @@ struct gb_measured {
     double *density_error, *pressure_error_pa; /* NaN where none is given */
 };
 
-/* The points of a table, as gb_lab_reader_read gives it.  Errors are one line naming file,
+/* The points of a table, as gb_lab_reader_read gives it; from_zero: pressures may be 0,
+ * otherwise they must be above it.  Errors are one line naming file,
  * line and what is accepted (GB_ERR_INPUT, MEMORY). */
 bool gb_measured_take(struct gb_measured **out, const struct gb_table *table,
-                      struct gb_error *err);
+                      bool from_zero, struct gb_error *err);
 void gb_measured_destroy(struct gb_measured *measured); /* NULL is fine */
 
 /* How far a loading curve lies from it, along the density at the same pressure. */

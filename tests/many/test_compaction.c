@@ -80,6 +80,29 @@ static void test_file(void)
     gb_compaction_data_finish(&data);
 }
 
+/* A row at pressure 0 is the powder before loading. */
+static void test_from_zero(void)
+{
+    static const char text[] = "p_MPa,density\n0,0.31\n10,0.4\n0,0.33\n20,0.5\n";
+    struct gb_compaction_window window = whole;
+    struct gb_compaction_data data;
+    struct gb_error err = {0};
+    for (int kind = 0; kind < 3; kind++) {
+        window.initial = kind == 1 ? 0.35 : (double)NAN;
+        window.fits_initial = kind == 2;
+        g_assert_true(read_text(&data, text, NULL, &window, &err));
+        g_assert_cmpuint(data.points.count, ==, 2);
+        g_assert_cmpfloat(data.points.pressure[0], ==, 10.0);
+        if (kind == 2) {
+            g_assert_true(isnan(data.points.initial));
+        } else {
+            g_assert_cmpfloat_with_epsilon(data.points.initial, kind == 1 ? 0.35 : 0.32,
+                                           1e-12);
+        }
+        gb_compaction_data_finish(&data);
+    }
+}
+
 static void test_series(void)
 {
     static const char text[] = "series,p_MPa,density\nA,10,0.4\nB,10,0.45\nA,20,0.5\n";
@@ -216,6 +239,7 @@ int main(int argc, char **argv)
     gsl_set_error_handler_off();
     folder = g_dir_make_tmp("greenbody-compaction-XXXXXX", NULL);
     g_test_add_func("/compaction/file", test_file);
+    g_test_add_func("/compaction/from-zero", test_from_zero);
     g_test_add_func("/compaction/series", test_series);
     g_test_add_func("/compaction/hostile", test_hostile);
     g_test_add_func("/compaction/long", test_long);

@@ -35,6 +35,26 @@ static const struct truth {
     {"secondi", 1.0, 1000.0, {0.85, 0.05, 0.6, 0.3}},
 };
 
+/* Parameters at an end of their range. */
+static const struct truth edges[] = {
+    {"heckel", 5.0, 1000.0, {0.0012, 0.0}},
+    {"heckel", 5.0, 1000.0, {0.0, 0.9}},
+    {"kawakita", 1.0, 500.0, {0.55, 1e-5, 0.35}},
+    {"kawakita", 1.0, 500.0, {0.55, 100.0, 0.35}},
+    {"cooper-eaton", 1.0, 1000.0, {0.45, 0.0, 4.0, 120.0, 0.35}},
+    {"cooper-eaton", 1.0, 1000.0, {0.45, 0.4, 4.0, 5.0, 0.35}},
+    {"walker", 5.0, 1000.0, {0.0, 2.0}},
+    {"balshin", 5.0, 1000.0, {7e4, 14e4}},
+    {"adams", 1.0, 1000.0, {1500.0, 0.01, 0.3}},
+    {"adams", 1.0, 1000.0, {1.5, 70.0, 0.3}},
+    {"shapiro-konopicky", 1.0, 1000.0, {0.0, 0.018, 0.3}},
+    {"shapiro-konopicky", 1.0, 1000.0, {0.0003, 0.0, 0.3}},
+    {"panelli-ambrozio", 5.0, 1000.0, {0.025, 0.0}},
+    {"secondi", 1.0, 1000.0, {0.85, 1e-4, 1.0, 0.3}},
+    {"secondi", 1.0, 1000.0, {1.0, 0.05, 0.6, 0.3}},
+    {"secondi", 1.0, 1000.0, {0.85, 50.0, 0.6, 0.3}},
+};
+
 struct curve {
     double pressure[POINTS], density[POINTS], error[POINTS];
     struct gb_equations_points points;
@@ -479,6 +499,211 @@ static void test_replicas(void)
     gsl_rng_free(random);
 }
 
+/* Data that are almost exact, or lack something. */
+enum kind {
+    EXACT,
+    NINE_DIGITS,
+    SIX_DIGITS,
+    SMALL_UNIT,
+    LARGE_UNIT,
+    ALL_TWICE,
+    ONE_REPEATED,
+    WITH_ERRORS,
+    FALLING, /* from here on not the curve of the equation */
+    CONSTANT,
+    FROM_ZERO,
+    TWO_POINTS,
+    TWO_PRESSURES,
+    KINDS
+};
+
+static const char *const kind_names[] = {
+    "exact",     "nine digits",  "six digits",   "small unit", "large unit",
+    "all twice", "one repeated", "with errors",  "falling",    "constant",
+    "from zero", "two points",   "two pressures"};
+
+/* A curve with room for repeated points. */
+struct kind_curve {
+    double pressure[2 * POINTS], density[2 * POINTS], error[2 * POINTS];
+    struct gb_equations_points points;
+};
+
+static void repeat(struct kind_curve *curve, int i)
+{
+    const size_t n = curve->points.count++;
+    for (size_t k = n; k > (size_t)i; k--) {
+        curve->pressure[k] = curve->pressure[k - 1];
+        curve->density[k] = curve->density[k - 1];
+    }
+}
+
+static void make_kind(struct kind_curve *curve, const struct truth *truth, bool known,
+                      enum kind kind)
+{
+    static const double digits[] = {[NINE_DIGITS] = 1e9, [SIX_DIGITS] = 1e6};
+    struct curve plain;
+    fill(&plain, truth, 0.0, NULL);
+    memcpy(curve->pressure, plain.pressure, sizeof plain.pressure);
+    memcpy(curve->density, plain.density, sizeof plain.density);
+    curve->points = plain.points;
+    curve->points.pressure = curve->pressure;
+    curve->points.density = curve->density;
+    curve->points.initial = known ? curve->points.initial : (double)NAN;
+    for (int i = 0; i < POINTS; i++) {
+        if (kind == NINE_DIGITS || kind == SIX_DIGITS) {
+            curve->density[i] = round(curve->density[i] * digits[kind]) / digits[kind];
+        } else if (kind == CONSTANT) {
+            curve->density[i] = 0.6;
+        } else if (kind == FALLING) {
+            curve->density[i] = plain.density[POINTS - 1 - i];
+        } else if (kind == SMALL_UNIT || kind == LARGE_UNIT) {
+            curve->pressure[i] *= kind == SMALL_UNIT ? 1e-9 : 1e9;
+        } else if (kind == TWO_PRESSURES) {
+            curve->pressure[i] = plain.pressure[i < POINTS / 2 ? 5 : 9];
+            curve->density[i] = plain.density[i < POINTS / 2 ? 5 : 9];
+        }
+        curve->error[i] = 1e-4;
+    }
+    if (kind == WITH_ERRORS) {
+        curve->points.error = curve->error;
+    } else if (kind == FROM_ZERO) {
+        curve->pressure[0] = 0.0;
+    } else if (kind == TWO_POINTS) {
+        curve->points.count = 2;
+    }
+    for (int i = POINTS - 1; i >= 0; i--) {
+        if (kind == ALL_TWICE || (kind == ONE_REPEATED && i == 7)) {
+            repeat(curve, i);
+        }
+    }
+}
+
+/* A fit has its values inside their intervals; exact data give narrow ones. */
+static void expect_sound(const struct gb_compaction_fits *fits, const struct truth *truth,
+                         bool edge, enum kind kind)
+{
+    static const double residual[KINDS] = {[NINE_DIGITS] = 4e-10, [SIX_DIGITS] = 4e-7};
+    static const double width[KINDS] = {
+        [EXACT] = 1e-7,        [NINE_DIGITS] = 1e-5, [SIX_DIGITS] = 1e-2,
+        [SMALL_UNIT] = 1e-7,   [LARGE_UNIT] = 1e-7,  [ALL_TWICE] = 1e-7,
+        [ONE_REPEATED] = 1e-7, [WITH_ERRORS] = 0.15};
+    const bool same_unit = kind != SMALL_UNIT && kind != LARGE_UNIT;
+    const struct gb_equation_fit *fit = gb_compaction_fits_reported(fits, 0);
+    for (size_t k = 0; k < fit->size; k++) {
+        const struct gb_fit_value *value = &fit->value[k];
+        const double below = value->value - value->low;
+        const double above = value->high - value->value;
+        g_test_message("    %s = %.9g (%.9g to %.9g)",
+                       gb_equations_parameter(fit->equation, k)->name, value->value,
+                       value->low, value->high);
+        g_assert_true(isfinite(value->value));
+        g_assert_cmpfloat(below, >, 0.0);
+        g_assert_cmpfloat(above, >, 0.0);
+        if (kind >= FALLING) {
+            continue;
+        }
+        if (!edge) {
+            g_assert_cmpfloat(below + above, <=, width[kind] * fabs(value->value));
+        }
+        if (same_unit && (!edge || kind == EXACT)) {
+            g_assert_cmpfloat(fabs(value->value - truth->x[k]), <=,
+                              3.0 * fmax(below, above) + 5.0 * residual[kind] +
+                                  1e-8 * fabs(truth->x[k]));
+        }
+    }
+    if (kind < FALLING) {
+        g_assert_cmpfloat(fits->fit[0].all.rms, <=, residual[kind] + 1e-10);
+    }
+}
+
+/* The line of a refusal says what the points lack. */
+static void expect_reason(const struct gb_error *refusal, const char *name, bool edge,
+                          enum kind kind)
+{
+    static const char *const reason[KINDS] = {[FALLING] =
+                                                  "the density falls with the pressure",
+                                              [CONSTANT] = "all densities are 0.6",
+                                              [FROM_ZERO] = "pressure 0 MPa",
+                                              [TWO_POINTS] = "2 points in the window",
+                                              [TWO_PRESSURES] = "points at 2 pressures"};
+    g_assert_true(g_str_has_prefix(refusal->text, name));
+    g_assert_null(strchr(refusal->text, '\n'));
+    if (kind < FALLING) {
+        g_assert_true(edge);
+        g_assert_nonnull(strstr(refusal->text, "the points do not determine"));
+        g_assert_null(strstr(refusal->text, "determine its parameters"));
+    } else if (strstr(refusal->text, "initial density") == NULL && !edge) {
+        g_assert_nonnull(strstr(refusal->text, reason[kind]));
+    }
+}
+
+static void check_kind(const struct truth *truth, bool edge, bool known, enum kind kind)
+{
+    struct kind_curve curve;
+    struct gb_compaction_fits fits;
+    struct gb_error err = {0};
+    make_kind(&curve, truth, known, kind);
+    g_assert_true(gb_compaction_fits(&fits, &curve.points, gb_equations_find(truth->name),
+                                     GB_COMPACTION_PROFILE, &err));
+    g_test_message("%s, D0 %s, %s: %s", truth->name, known ? "known" : "fitted",
+                   kind_names[kind],
+                   fits.fitted == 1 ? "fitted" : fits.fit[0].refusal.text);
+    if (fits.fitted == 1) {
+        expect_sound(&fits, truth, edge, kind);
+        return;
+    }
+    expect_reason(&fits.fit[0].refusal, truth->name, edge, kind);
+}
+
+/* All equations with data of every kind: a fit, or one line that says what they lack. */
+static void test_kinds(void)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(truths) + G_N_ELEMENTS(edges); i++) {
+        const bool edge = i >= G_N_ELEMENTS(truths);
+        const struct truth *truth = edge ? &edges[i - G_N_ELEMENTS(truths)] : &truths[i];
+        const bool initial = has_initial(gb_equations_find(truth->name));
+        for (int known = initial ? 0 : 1; known < 2; known++) {
+            for (enum kind kind = EXACT; kind < KINDS; kind++) {
+                check_kind(truth, edge, known, kind);
+            }
+        }
+    }
+}
+
+/* Repeated points leave the stretch of Heckel's plot where it is. */
+static void test_repeats(void)
+{
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    for (unsigned long sample = 0; sample < TRIALS; sample++) {
+        struct curve plain;
+        struct gb_heckel_stretch wanted;
+        struct gb_error err = {0};
+        gsl_rng_set(random, seeds + sample);
+        fill(&plain, &truths[7], 0.2 * noise, random);
+        g_assert_true(gb_heckel_stretch(&wanted, &plain.points, &err));
+        for (int pattern = 0; pattern < 3; pattern++) {
+            struct kind_curve curve = {.points = plain.points};
+            struct gb_heckel_stretch found;
+            memcpy(curve.pressure, plain.pressure, sizeof plain.pressure);
+            memcpy(curve.density, plain.density, sizeof plain.density);
+            curve.points.pressure = curve.pressure;
+            curve.points.density = curve.density;
+            for (int i = POINTS - 1; i >= 0; i--) {
+                if (pattern == 0 || gsl_rng_uniform(random) < 0.3) {
+                    repeat(&curve, i);
+                }
+            }
+            g_assert_true(gb_heckel_stretch(&found, &curve.points, &err));
+            const double *p = curve.pressure;
+            g_assert_cmpfloat(p[found.first], ==, plain.pressure[wanted.first]);
+            g_assert_cmpfloat(p[found.first + found.count - 1], ==,
+                              plain.pressure[wanted.first + wanted.count - 1]);
+            g_assert_true(found.straight == wanted.straight);
+        }
+    }
+    gsl_rng_free(random);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -495,5 +720,7 @@ int main(int argc, char **argv)
     g_test_add_func("/equations/stretch", test_stretch);
     g_test_add_func("/equations/profile", test_profile);
     g_test_add_func("/equations/replicas", test_replicas);
+    g_test_add_func("/equations/kinds", test_kinds);
+    g_test_add_func("/equations/repeats", test_repeats);
     return g_test_run();
 }

@@ -180,7 +180,7 @@ static void put_misfit(struct gb_report_table *table, const struct gb_report *re
     struct gb_measured *measured = NULL;
     double squares = 0.0;
     size_t points = 0;
-    if (!gb_measured_take(&measured, report->data, NULL)) {
+    if (!gb_measured_take(&measured, report->data, false, NULL)) {
         return; /* a table of other quantities */
     }
     for (size_t i = 0; i < measured->count; i++) {

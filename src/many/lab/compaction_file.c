@@ -112,25 +112,32 @@ static bool inside(const struct gb_compaction_window *window, double pressure)
     return !(pressure < window->from) && !(pressure > window->to);
 }
 
-/* The chosen points of the window, in ascending order; their number. */
+/* The chosen points of the window, in ascending order; their number.  Rows at pressure 0
+ * are the powder before loading: initial gets their mean density, NaN without any. */
 static size_t select_samples(struct sample *samples, const struct gb_measured *measured,
                              const bool *chosen,
-                             const struct gb_compaction_window *window)
+                             const struct gb_compaction_window *window, double *initial)
 {
     size_t count = 0;
+    size_t unloaded = 0;
+    double sum = 0.0;
     for (size_t i = 0; i < measured->count; i++) {
         const struct sample sample = {1e-6 * measured->pressure_pa[i],
                                       measured->density[i], measured->density_error[i]};
-        if (chosen[i] && inside(window, sample.pressure)) {
+        if (chosen[i] && sample.pressure == 0.0) {
+            sum += sample.density;
+            unloaded++;
+        } else if (chosen[i] && inside(window, sample.pressure)) {
             samples[count++] = sample;
         }
     }
+    *initial = unloaded > 0 ? sum / (double)unloaded : (double)NAN;
     qsort(samples, count, sizeof *samples, compare_samples);
     return count;
 }
 
 static bool fill(struct gb_compaction_data *data, const struct sample *samples,
-                 size_t count, const struct gb_compaction_window *window,
+                 size_t count, double initial, const struct gb_compaction_window *window,
                  struct gb_error *err)
 {
     double *pressure = gb_alloc_array(3 * count, sizeof *pressure, err);
@@ -152,7 +159,10 @@ static bool fill(struct gb_compaction_data *data, const struct sample *samples,
         .pressure = pressure,
         .density = density,
         .error = known ? error : NULL,
-        .initial = window->fits_initial ? (double)NAN : window->initial};
+        .initial = isnan(window->initial) ? initial : window->initial};
+    if (window->fits_initial) {
+        data->points.initial = NAN;
+    }
     return true;
 }
 
@@ -163,7 +173,7 @@ bool gb_compaction_file(struct gb_compaction_data *data, const struct gb_table *
     struct gb_measured *measured = NULL;
     const char *path = gb_table_path(table);
     *data = (struct gb_compaction_data){0};
-    if (!gb_measured_take(&measured, table, err)) {
+    if (!gb_measured_take(&measured, table, true, err)) {
         return false;
     }
     if (measured->count > ROWS_MAX) {
@@ -177,9 +187,10 @@ bool gb_compaction_file(struct gb_compaction_data *data, const struct gb_table *
     bool good =
         samples != NULL && chosen != NULL && choose_rows(chosen, table, series, err);
     if (good) {
-        const size_t count = select_samples(samples, measured, chosen, window);
+        double initial = NAN;
+        const size_t count = select_samples(samples, measured, chosen, window, &initial);
         good = count > 0
-                   ? fill(data, samples, count, window, err)
+                   ? fill(data, samples, count, initial, window, err)
                    : gb_error_set(err, GB_ERR_INPUT,
                                   "%.200s: no point of loading in the window", path);
     }

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "measure/fit/fit.h"
 
 enum { SIZE = GB_CAP_SIDE_FREE, ITERATIONS = 200, REWEIGHTINGS = 4 };
 
@@ -192,8 +193,7 @@ static bool solve(struct gb_cap_side_found *found, const struct problem *problem
         gsl_multifit_nlinear_init(x, &system, work);
         status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 0.0, NULL, NULL,
                                              &info, work);
-        /* no progress left in double precision is convergence, too */
-        status = info == GSL_ENOPROG ? GSL_SUCCESS : status;
+        status = gb_fit_settled(status, info) ? GSL_SUCCESS : status;
         gsl_vector_memcpy(x, gsl_multifit_nlinear_position(work));
     }
     const struct gb_cap cap = at(problem, x);

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "measure/fit/decay_start.h"
+#include "measure/fit/fit.h"
 
 /* Scatter below this share of the largest value is rounding, of the data or of the
  * iteration. */
@@ -220,9 +221,8 @@ static bool iterate(struct gb_decay *found, const struct gb_decay_points *points
         const int status = gsl_multifit_nlinear_driver(GB_DECAY_ITERATIONS, 1e-9, 1e-9,
                                                        0.0, NULL, NULL, &info, work);
         take_result(found, work, covariance);
-        /* no progress at the minimum: only rounding is left */
-        found->converged = (status == GSL_SUCCESS || status == GSL_ENOPROG) &&
-                           isfinite(found->squares) && tau_in_range(found, points);
+        found->converged = gb_fit_settled(status, info) && isfinite(found->squares) &&
+                           tau_in_range(found, points);
     } else {
         gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit of %zu points",
                      points->count);

@@ -4,6 +4,8 @@
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 
+#include "measure/fit/fit.h"
+
 enum { N = GB_ELLIPSE_PARAMETERS, ITERATIONS = 200 };
 
 struct points {
@@ -64,10 +66,12 @@ static bool solve(struct gb_ellipse *ellipse, struct points *points,
     }
     gsl_vector_const_view from = gsl_vector_const_view_array(start, N);
     int info = 0;
-    const bool good =
-        gsl_multifit_nlinear_init(&from.vector, &system, work) == GSL_SUCCESS &&
-        gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 1e-12, NULL, NULL, &info,
-                                    work) == GSL_SUCCESS;
+    int status = gsl_multifit_nlinear_init(&from.vector, &system, work);
+    if (status == GSL_SUCCESS) {
+        status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 1e-12, NULL, NULL,
+                                             &info, work);
+    }
+    const bool good = gb_fit_settled(status, info);
     if (good) {
         read_result(ellipse, gsl_multifit_nlinear_position(work), points);
     }

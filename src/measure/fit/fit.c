@@ -1,6 +1,7 @@
 #include "measure/fit/fit.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
 #include <math.h>
 
 #include "measure/fit/decay.h"
@@ -11,6 +12,11 @@
 static const double f_level = 0.99;
 
 static const double interval_level = 0.975; /* two-sided 95 % */
+
+bool gb_fit_settled(int status, int info)
+{
+    return status == GSL_SUCCESS || status == GSL_ENOPROG || info == GSL_ENOPROG;
+}
 
 static int degrees_of(const struct gb_decay *found, const struct gb_decay_points *points)
 {

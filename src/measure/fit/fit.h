@@ -56,4 +56,9 @@ double gb_fit_decay_at(const struct gb_fit_decay *fit, double t);
 double gb_fit_decay_fall(const struct gb_fit_decay *fit);
 double gb_fit_decay_efold(const struct gb_fit_decay *fit);
 
+/* Whether gsl_multifit_nlinear_driver ended at a minimum, by its status and its info.
+ * GSL_ENOPROG is one: no step improves on it in double precision.  Where this happens at
+ * the start values, the status is that of the limit of iterations. */
+bool gb_fit_settled(int status, int info);
+
 #endif

@@ -217,7 +217,7 @@ enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char 
     }
     enum gb_lab_outcome outcome =
         gb_lab_reader_read(&table, path, &options, NULL, report, err);
-    if (outcome == GB_LAB_READ && gb_measured_take(&measured, table, err)) {
+    if (outcome == GB_LAB_READ && gb_measured_take(&measured, table, false, err)) {
         set_measured(session, measured, reading);
     } else if (outcome == GB_LAB_READ) {
         outcome = GB_LAB_FAILED;

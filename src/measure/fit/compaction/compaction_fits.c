@@ -31,7 +31,9 @@ static bool fit_stretch(struct gb_compaction_fits *fits,
                         enum gb_compaction_intervals intervals, struct gb_error *err)
 {
     struct gb_equations_points part = *points;
-    gb_heckel_stretch(&fits->stretch, points);
+    if (!gb_heckel_stretch(&fits->stretch, points, err)) {
+        return false;
+    }
     const size_t first = fits->stretch.first;
     part.count = fits->stretch.count;
     part.pressure += first;
@@ -42,12 +44,12 @@ static bool fit_stretch(struct gb_compaction_fits *fits,
            set_intervals(&fits->heckel, &part, intervals, err);
 }
 
-/* 1/K; unbounded where the interval of K contains 0. */
+/* 1/K; unbounded where the interval of K contains 0 or K is not above it. */
 static void set_yield(struct gb_compaction_fits *fits)
 {
     const struct gb_fit_value *k = &fits->heckel.value[0];
     fits->yield = (struct gb_fit_value){
-        .value = 1.0 / k->value,
+        .value = k->value > 0.0 ? 1.0 / k->value : (double)INFINITY,
         .error = k->error / (k->value * k->value),
         .low = k->high > 0.0 ? 1.0 / k->high : -(double)INFINITY,
         .high = k->low > 0.0 ? 1.0 / k->low : (double)INFINITY,

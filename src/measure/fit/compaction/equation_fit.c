@@ -51,6 +51,46 @@ static void order_terms(const struct gb_equation *equation, double *x, double *c
     }
 }
 
+/* Why the points leave an equation without a best fit. */
+static bool refuse(const struct gb_equation *equation,
+                   const struct gb_equations_points *points, int undetermined,
+                   struct gb_error *err)
+{
+    const double *p = points->pressure;
+    const double *rho = points->density;
+    double low = rho[0];
+    double high = rho[0];
+    double middle = 0.0;
+    double rise = 0.0; /* sign of the slope of rho over P */
+    for (size_t i = 0; i < points->count; i++) {
+        low = fmin(low, rho[i]);
+        high = fmax(high, rho[i]);
+        middle += p[i] / (double)points->count;
+    }
+    for (size_t i = 0; i < points->count; i++) {
+        rise += (p[i] - middle) * (rho[i] - low);
+    }
+    const char *name = "its parameters";
+    if (undetermined != GB_EQUATION_ITERATE_ALL) {
+        name = gb_equations_parameter(equation, (size_t)undetermined)->name;
+    }
+    if (high - low <= rounding * high) {
+        return gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                            "%s: all densities are %.6g: the points do not determine %s",
+                            equation->name, low, name);
+    }
+    if (!(rise > 0.0)) {
+        return gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                            "%s: the density falls with the pressure, from %.6g to %.6g: "
+                            "the points do not determine %s",
+                            equation->name, rho[0], rho[points->count - 1], name);
+    }
+    return gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                        "%s: the points do not determine %s: other values describe them "
+                        "as well",
+                        equation->name, name);
+}
+
 /* The best of the iterations from all start values. */
 static bool minimise(struct gb_equation_fit *fit,
                      const struct gb_equations_points *points, double *covariance,
@@ -59,6 +99,7 @@ static bool minimise(struct gb_equation_fit *fit,
     const struct gb_equation *equation = fit->equation;
     const bool unknown = gb_equations_fits_initial(equation, points);
     const size_t starts = unknown ? sizeof initial_shares / sizeof initial_shares[0] : 1;
+    int undetermined = GB_EQUATION_ITERATE_ALL;
     fit->squares = INFINITY;
     for (size_t s = 0; s < starts; s++) {
         double x[GB_EQUATIONS_PARAMETERS] = {0.0};
@@ -74,18 +115,16 @@ static bool minimise(struct gb_equation_fit *fit,
         if (!gb_equation_iterate(&iterate, err)) {
             return false;
         }
-        if (iterate.converged && iterate.squares < fit->squares) {
+        if (iterate.undetermined != GB_EQUATION_ITERATE_ALL) {
+            undetermined = iterate.undetermined;
+        } else if (iterate.converged && iterate.squares < fit->squares) {
             order_terms(equation, x, iterate.covariance);
             fit->squares = iterate.squares;
             memcpy(fit->x, x, sizeof x);
             memcpy(covariance, iterate.covariance, sizeof iterate.covariance);
         }
     }
-    return isfinite(fit->squares) ||
-           gb_error_set(err, GB_ERR_NOT_CONVERGED,
-                        "%s: the iteration did not settle: the points do not determine "
-                        "its parameters",
-                        equation->name);
+    return isfinite(fit->squares) || refuse(equation, points, undetermined, err);
 }
 
 /* rms, correlation and what follows from them. */
@@ -109,9 +148,8 @@ static bool set_scatter(struct gb_equation_fit *fit,
     fit->rms = sqrt(sum / n);
     fit->correlation = gb_decay_correlation(residual, points->count, 0.0);
     gb_alloc_free(residual);
-    const double scatter = fit->squares / degrees;
-    fit->variance =
-        (points->error != NULL ? fmax(scatter, 1.0) : scatter) * fit->correlation;
+    const double least = points->error != NULL ? 1.0 : rounding * rounding;
+    fit->variance = fmax(fit->squares / degrees, least) * fit->correlation;
     fit->quantile = gsl_cdf_tdist_Pinv(
         interval_level, fmax(n / fit->correlation - (double)fit->size, 1.0));
     fit->aicc = n * log(fmax(fit->squares / n, rounding * rounding)) + 2.0 * k +

@@ -15,6 +15,7 @@ struct gb_equation_iterate {
     double *x; /* parameters, D0 last: start values, and the result */
     double squares;
     bool converged;
+    int undetermined; /* a parameter that the points do not determine; ALL: none */
     double covariance[GB_EQUATIONS_PARAMETERS]; /* diagonal, of unit variance */
 };
 

@@ -22,7 +22,7 @@ struct profile {
     struct gb_equation_fit *fit;
     const struct gb_equations_points *points;
     size_t k;
-    double x[GB_EQUATIONS_PARAMETERS]; /* of the last evaluation: the next start */
+    double x[GB_EQUATIONS_PARAMETERS]; /* of the last value inside: the next start */
     struct gb_error *err;
     bool good; /* memory */
 };
@@ -46,9 +46,12 @@ static double rise(struct profile *profile, double coordinate)
     if (!isfinite(iterate.squares)) {
         return INFINITY;
     }
-    memcpy(profile->x, x, sizeof x);
-    return sqrt(fmax(iterate.squares - profile->fit->squares, 0.0) /
-                profile->fit->variance);
+    const double above =
+        sqrt(fmax(iterate.squares - profile->fit->squares, 0.0) / profile->fit->variance);
+    if (above < profile->fit->quantile) {
+        memcpy(profile->x, x, sizeof x);
+    }
+    return above;
 }
 
 /* The coordinate between `inside` and `outside` where the rise is the quantile. */
@@ -90,7 +93,6 @@ static double find_end(struct profile *profile, double at, double half)
             break;
         }
         if (rise(profile, at + step) >= profile->fit->quantile) {
-            memcpy(profile->x, profile->fit->x, sizeof profile->x);
             return bisect(profile, inside, at + step);
         }
         inside = at + step;

@@ -206,7 +206,18 @@ bool gb_equations_check(const struct gb_equation *equation,
             return false;
         }
     }
-    return points->pressure[points->count - 1] > points->pressure[0] ||
-           gb_error_set(err, GB_ERR_INPUT, "%s: all points are at one pressure, %g MPa",
-                        equation->name, points->pressure[0]);
+    size_t pressures = 1;
+    for (size_t i = 1; i < points->count; i++) {
+        pressures += points->pressure[i] > points->pressure[i - 1];
+    }
+    const size_t size = gb_equations_size(equation, points);
+    if (pressures == 1) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: all points are at one pressure, %g MPa", equation->name,
+                            points->pressure[0]);
+    }
+    return pressures >= size ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%s: points at %zu pressures; %zu parameters take %zu or more",
+                        equation->name, pressures, size, size);
 }

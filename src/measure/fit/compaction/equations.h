@@ -69,7 +69,7 @@ const struct gb_equations_parameter *
 gb_equations_parameter(const struct gb_equation *equation, size_t k);
 
 /* Whether the equation is defined for the points, and they are enough: three more than
- * parameters.  Errors: GB_ERR_INPUT with the equation and the first point outside. */
+ * parameters, at as many pressures as parameters or more.  Errors: GB_ERR_INPUT with the equation and the first point outside. */
 bool gb_equations_check(const struct gb_equation *equation,
                         const struct gb_equations_points *points, struct gb_error *err);
 

@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
+#include "base/alloc.h"
 #include "measure/fit/compaction/equation_starts.h"
 
 /* Least length: points, and this share of all. */
@@ -42,27 +43,35 @@ static void add_point(struct moments *m, double weight, double x, double y)
     m->yy += weight * dy * (y - m->y);
 }
 
-static double weight_of(const struct gb_equations_points *points, size_t i)
+/* A point of the plot: all that were measured at one pressure. */
+struct dot {
+    double x, y, weight; /* P, y, 1/error^2 of y */
+    size_t first, count; /* its points */
+};
+
+/* Means over the points from `first` on at its pressure. */
+static struct dot dot_at(const struct gb_equations_points *points, size_t first)
 {
-    const double porosity = 1.0 - points->density[i];
-    return gb_equation_starts_weight(points, i) * porosity * porosity;
+    struct dot dot = {.x = points->pressure[first], .first = first};
+    for (size_t i = first; i < points->count && points->pressure[i] == dot.x; i++) {
+        const double porosity = 1.0 - points->density[i];
+        const double share = 1.0 / (double)++dot.count;
+        dot.y += share * (-log(porosity) - dot.y);
+        dot.weight +=
+            share *
+            (gb_equation_starts_weight(points, i) * porosity * porosity - dot.weight);
+    }
+    return dot;
 }
 
-static double height(const struct gb_equations_points *points, size_t i)
-{
-    return -log(1.0 - points->density[i]);
-}
-
-/* Squared distance of point i from the line through its neighbours, in units in which it
+/* Squared distance of a dot from the line through its neighbours, in units in which it
  * is the variance of a point on average. */
-static double step_at(const struct gb_equations_points *points, size_t i)
+static double step_at(const struct dot *dot)
 {
-    const double *p = points->pressure;
-    const double span = p[i + 1] - p[i - 1];
-    const double share = span > 0.0 ? (p[i] - p[i - 1]) / span : 0.5;
-    const double off = height(points, i) - (1.0 - share) * height(points, i - 1) -
-                       share * height(points, i + 1);
-    return weight_of(points, i) * off * off /
+    const double span = dot[1].x - dot[-1].x;
+    const double share = (dot->x - dot[-1].x) / span;
+    const double off = dot->y - (1.0 - share) * dot[-1].y - share * dot[1].y;
+    return dot->weight * off * off /
            (1.0 + share * share + (1.0 - share) * (1.0 - share));
 }
 
@@ -80,6 +89,9 @@ struct candidate {
 
 static double remainder_of(const struct moments *m, size_t count)
 {
+    if (count <= 2) {
+        return 0.0;
+    }
     return m->yy > 0.0 ? rest_of(m) / m->yy * (double)(count - 1) / (double)(count - 2)
                        : 1.0;
 }
@@ -109,35 +121,47 @@ static void judge(struct found *found, const struct moments *moments,
     }
 }
 
-static void search_from(struct found *found, const struct gb_equations_points *points,
+static void search_from(struct found *found, const struct dot *dots, size_t size,
                         size_t first, size_t least, size_t stride)
 {
     struct moments moments = {0};
-    for (size_t i = first; i < points->count; i++) {
+    for (size_t i = first; i < size; i++) {
         const size_t count = i + 1 - first;
-        add_point(&moments, weight_of(points, i), points->pressure[i], height(points, i));
-        moments.steps += count > 2 ? step_at(points, i - 1) : 0.0;
-        if (count >= least && (points->count - 1 - i) % stride == 0) {
-            const struct candidate here = {first, count,
-                                           points->pressure[i] - points->pressure[first],
+        add_point(&moments, dots[i].weight, dots[i].x, dots[i].y);
+        moments.steps += count > 2 ? step_at(&dots[i - 1]) : 0.0;
+        if (count >= least && (size - 1 - i) % stride == 0) {
+            const struct candidate here = {first, count, dots[i].x - dots[first].x,
                                            remainder_of(&moments, count)};
             judge(found, &moments, &here);
         }
     }
 }
 
-void gb_heckel_stretch(struct gb_heckel_stretch *stretch,
-                       const struct gb_equations_points *points)
+bool gb_heckel_stretch(struct gb_heckel_stretch *stretch,
+                       const struct gb_equations_points *points, struct gb_error *err)
 {
-    const double share = ceil(share_least * (double)points->count);
-    const size_t least = share > POINTS_LEAST ? (size_t)share : POINTS_LEAST;
-    const size_t stride = 1 + points->count / ENDS;
+    struct dot *dots = gb_alloc_array(points->count, sizeof *dots, err);
+    if (dots == NULL) {
+        return false;
+    }
+    size_t size = 0;
+    for (size_t i = 0; i < points->count; i += dots[size++].count) {
+        dots[size] = dot_at(points, i);
+    }
+    const double share = ceil(share_least * (double)size);
+    const size_t enough = share > POINTS_LEAST ? (size_t)share : POINTS_LEAST;
+    const size_t least = enough < size ? enough : size;
+    const size_t stride = 1 + size / ENDS;
     struct found found = {0};
-    for (size_t first = 0; first + least <= points->count; first += stride) {
-        search_from(&found, points, first, least, stride);
+    for (size_t first = 0; first + least <= size; first += stride) {
+        search_from(&found, dots, size, first, least, stride);
     }
     const bool straight = found.straight.count > 0;
     const struct candidate *best = straight ? &found.straight : &found.least;
-    *stretch = (struct gb_heckel_stretch){best->first, best->count, straight,
-                                          1.0 - best->remainder};
+    const struct dot *last = &dots[best->first + best->count - 1];
+    const size_t begin = dots[best->first].first;
+    *stretch = (struct gb_heckel_stretch){begin, last->first + last->count - begin,
+                                          straight, 1.0 - best->remainder};
+    gb_alloc_free(dots);
+    return true;
 }
