@@ -279,6 +279,49 @@ static void test_limit(void)
     gb_calibrate_finish(&result);
 }
 
+/* Intervals stay within the range of a key, and say where they end at its limit.  Data
+ * from exact to worthless, ranges wide and narrow. */
+static void test_range(void)
+{
+    static const double scale[] = {1.0, 10.0, 100.0};
+    static const double ranges[][2] = {
+        {0.0, 1.0}, {0.02, 0.4}, {0.2, 0.3}, {0.05, true_mu}, {0.3, 0.8}};
+    for (size_t s = 0; s < G_N_ELEMENTS(scale); s++) {
+        for (size_t r = 0; r < G_N_ELEMENTS(ranges); r++) {
+            struct bench bench = {.seed = 11 + r};
+            double value[DATA], error[DATA];
+            struct gb_calibrate_problem problem = problem_of(&bench, value, error);
+            for (size_t i = 0; i < DATA; i++) {
+                value[i] += (scale[s] - 1.0) * measured_error *
+                            normal(bench.seed, 98, (double)i, scale[s]);
+                error[i] *= scale[s];
+            }
+            problem.low[0] = problem.from[0] = ranges[r][0];
+            problem.high[0] = problem.to[0] = ranges[r][1];
+            struct gb_calibrate_result result = fit(&problem);
+            for (size_t k = 0; k < 2; k++) {
+                const double low = result.low[k];
+                const double high = result.high[k];
+                g_test_message("errors %g, range %g to %g: %g (%g to %g)%s%s", scale[s],
+                               problem.low[k], problem.high[k], result.value[k], low,
+                               high, result.low_open[k] ? " low" : "",
+                               result.high_open[k] ? " high" : "");
+                g_assert_cmpfloat(low, >=, problem.low[k]);
+                g_assert_cmpfloat(high, <=, problem.high[k]);
+                g_assert_cmpfloat(low, <=, result.value[k]);
+                g_assert_cmpfloat(high, >=, result.value[k]);
+                g_assert_cmpfloat(high, >, low);
+                g_assert_true(low > problem.low[k] || result.low_open[k]);
+                g_assert_true(high < problem.high[k] || result.high_open[k]);
+            }
+            if (s == 2 && r == 2) { /* nothing is known of mu */
+                g_assert_true(result.low_open[0] && result.high_open[0]);
+            }
+            gb_calibrate_finish(&result);
+        }
+    }
+}
+
 static void test_refuse(void)
 {
     struct bench bench = {.seed = 2};
@@ -298,7 +341,7 @@ static void test_refuse(void)
     g_assert_cmpuint(bench.calls, ==, 0);
 }
 
-/* A value stays whole beside an error that is larger. */
+/* A value stays whole beside an error that is larger, and an open end is named. */
 static void test_text(void)
 {
     static const struct {
@@ -321,6 +364,12 @@ static void test_text(void)
         GString *text = gb_calibration_table_text(&calibration);
         g_test_message("%s", text->str);
         g_assert_true(g_str_has_prefix(text->str, rows[k].text));
+        g_assert_null(strstr(text->str, "leave the interval open"));
+        g_string_free(text, TRUE);
+        calibration.result.high_open[0] = true;
+        text = gb_calibration_table_text(&calibration);
+        g_assert_nonnull(strstr(text->str, "upper limit of the range 0.05 to 0.5"));
+        calibration.result.high_open[0] = false;
         g_string_free(text, TRUE);
     }
 }
@@ -335,6 +384,7 @@ int main(int argc, char **argv)
     g_test_add_func("/calibrate/failures", test_failures);
     g_test_add_func("/calibrate/confused", test_confused);
     g_test_add_func("/calibrate/limit", test_limit);
+    g_test_add_func("/calibrate/range", test_range);
     g_test_add_func("/calibrate/weights", test_weights);
     g_test_add_func("/calibrate/refuse", test_refuse);
     g_test_add_func("/calibrate/text", test_text);

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "measure/fit/average.h"
+#include "measure/fit/exponent_profile.h"
 
 enum { VARIABLES = GB_SURROGATE_VARIABLES, ITERATIONS = 2000 };
 
@@ -19,12 +20,17 @@ static const double simplex_end = 1e-7;
  * apart at all come out with errors about 1e4 times too large, and not as an error. */
 static const double ridge = 1e-8;
 
+/* An interval stands where the root of the rise of the misfit at its ends is within this
+ * fraction of what it expects. */
+static const double linear_enough = 0.05;
+
 struct fit {
     const struct gb_estimate_problem *problem;
-    double *mean, *weight; /* data */
-    double *seen;          /* seeds x data: outputs of each seed */
-    double *slope;         /* data x variables */
-    double *gain;          /* variables x data: change of the fit with the data */
+    double *mean, *weight;  /* data */
+    double *seen;           /* seeds x data: outputs of each seed */
+    double *slope;          /* data x variables */
+    double *gain;           /* variables x data: change of the fit with the data */
+    double unit[VARIABLES]; /* squared: diagonal of (J'WJ)^-1 */
 };
 
 /* The outputs of every seed at a point, and their mean. */
@@ -93,28 +99,36 @@ static double misfit(const struct fit *fit, const double *at)
     return sum;
 }
 
-/* The nearest point of the box; returns the squared distance to it. */
-static double clip(const struct gb_estimate_problem *problem, const double *from,
-                   double *to)
+/* Moves variable k into the box; returns the squared distance to it. */
+static double clip(const struct gb_estimate_problem *problem, size_t k, double *at)
 {
-    double distance = 0.0;
-    for (size_t k = 0; k < problem->variables; k++) {
-        to[k] = fmin(fmax(from[k], problem->low[k]), problem->high[k]);
-        distance += (from[k] - to[k]) * (from[k] - to[k]);
-    }
-    return distance;
+    const double from = *at;
+    *at = fmin(fmax(from, problem->low[k]), problem->high[k]);
+    return (from - *at) * (from - *at);
 }
+
+/* The misfit with some variables held. */
+struct search {
+    const struct fit *fit;
+    size_t moving[VARIABLES];
+    const double *at; /* of the held ones */
+};
 
 /* Outside of the box: the misfit at the nearest point, increased with the distance. */
 static double bounded_misfit(const gsl_vector *x, void *data)
 {
-    const struct fit *fit = data;
+    const struct search *search = data;
     double from[VARIABLES], at[VARIABLES];
-    for (size_t k = 0; k < fit->problem->variables; k++) {
-        from[k] = gsl_vector_get(x, k);
+    memcpy(from, search->at, sizeof from);
+    for (size_t k = 0; k < x->size; k++) {
+        from[search->moving[k]] = gsl_vector_get(x, k);
     }
-    const double distance = clip(fit->problem, from, at);
-    return misfit(fit, at) * (1.0 + distance) + distance;
+    memcpy(at, from, sizeof at);
+    double distance = 0.0;
+    for (size_t k = 0; k < x->size; k++) {
+        distance += clip(search->fit->problem, search->moving[k], &at[search->moving[k]]);
+    }
+    return misfit(search->fit, at) * (1.0 + distance) + distance;
 }
 
 /* Best of a coarse grid over the box, so that the simplex does not start near a local
@@ -142,21 +156,33 @@ static void find_start(const struct fit *fit, double *best)
     }
 }
 
-static bool minimise(struct fit *fit, double *best, struct gb_error *err)
+/* No variable is held. */
+enum { NONE = -1 };
+
+/* Moves all variables but `held` from `at` to the least misfit. */
+static bool minimise(const struct fit *fit, int held, double *at, struct gb_error *err)
 {
-    const size_t n = fit->problem->variables;
-    gsl_multimin_function function = {bounded_misfit, n, fit};
+    struct search search = {.fit = fit, .at = at};
+    size_t n = 0;
+    for (size_t k = 0; k < fit->problem->variables; k++) {
+        if ((int)k != held) {
+            search.moving[n++] = k;
+        }
+    }
+    if (n == 0) {
+        return true;
+    }
+    gsl_multimin_function function = {bounded_misfit, n, &search};
     gsl_multimin_fminimizer *solver =
         gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
     gsl_vector *start = gsl_vector_alloc(n);
     gsl_vector *size = gsl_vector_alloc(n);
     const bool made = solver != NULL && start != NULL && size != NULL;
     if (made) {
-        find_start(fit, best);
-        double end[VARIABLES];
         for (size_t k = 0; k < n; k++) {
-            const double width = fit->problem->high[k] - fit->problem->low[k];
-            gsl_vector_set(start, k, best[k]);
+            const size_t to = search.moving[k];
+            const double width = fit->problem->high[to] - fit->problem->low[to];
+            gsl_vector_set(start, k, at[to]);
             gsl_vector_set(size, k, simplex_start * width);
         }
         gsl_multimin_fminimizer_set(solver, &function, start, size);
@@ -169,9 +195,10 @@ static bool minimise(struct fit *fit, double *best, struct gb_error *err)
                 gsl_multimin_test_size(gsl_multimin_fminimizer_size(solver), simplex_end);
         }
         for (size_t k = 0; k < n; k++) {
-            end[k] = gsl_vector_get(gsl_multimin_fminimizer_x(solver), k);
+            double *to = &at[search.moving[k]];
+            *to = gsl_vector_get(gsl_multimin_fminimizer_x(solver), k);
+            clip(fit->problem, search.moving[k], to);
         }
-        clip(fit->problem, end, best);
     }
     if (solver != NULL) {
         gsl_multimin_fminimizer_free(solver);
@@ -203,7 +230,7 @@ static bool set_slope(const struct fit *fit, const double *at, struct gb_error *
 
 /* gain = (J'WJ)^-1 J'W, the normal matrix scaled to a diagonal of ones.  effect[k] is 0
  * for a variable that changes nothing. */
-static bool set_gain(const struct fit *fit, double *effect, struct gb_error *err)
+static bool set_gain(struct fit *fit, double *effect, struct gb_error *err)
 {
     const struct gb_estimate_problem *problem = fit->problem;
     const size_t n = problem->variables;
@@ -234,6 +261,7 @@ static bool set_gain(const struct fit *fit, double *effect, struct gb_error *err
     const bool good = gsl_linalg_cholesky_decomp1(normal) == 0 &&
                       gsl_linalg_cholesky_invert(normal) == 0;
     for (size_t k = 0; k < n && good; k++) {
+        fit->unit[k] = sqrt(gsl_matrix_get(normal, k, k)) / effect[k];
         for (size_t i = 0; i < problem->data; i++) {
             double sum = 0.0;
             for (size_t l = 0; l < n; l++) {
@@ -294,7 +322,7 @@ static double student(double data, double data_degrees, double seeds, double see
 }
 
 static void set_errors(const struct fit *fit, const double *effect, double scatter,
-                       struct gb_estimate *to)
+                       struct gb_estimate *to, double *half)
 {
     const struct gb_estimate_problem *problem = fit->problem;
     const size_t n = problem->variables;
@@ -303,9 +331,8 @@ static void set_errors(const struct fit *fit, const double *effect, double scatt
         const double data = from_data(fit, scatter, k, k);
         const double seeds = from_seeds(fit, k, k);
         to->error[k] = effect[k] > 0.0 ? sqrt(data + seeds) : INFINITY;
-        to->half_95[k] =
-            to->error[k] * student(data, problem->error ? INFINITY : free_data, seeds,
-                                   (double)problem->seeds - 1.0);
+        half[k] = to->error[k] * student(data, problem->error ? INFINITY : free_data,
+                                         seeds, (double)problem->seeds - 1.0);
     }
     for (size_t k = 0; k < n; k++) {
         for (size_t l = 0; l < n; l++) {
@@ -316,6 +343,81 @@ static void set_errors(const struct fit *fit, const double *effect, double scatt
                                                                      : 0.0;
         }
     }
+}
+
+/* Profile of variable k. */
+struct profile {
+    const struct fit *fit;
+    const struct gb_estimate *best;
+    size_t k;
+    double least; /* misfit of the best fit */
+    struct gb_error *err;
+    bool *good; /* memory */
+};
+
+/* Square of the distance from the best fit at which a linear model has this misfit. */
+static double squares_at(double at, const void *data)
+{
+    const struct profile *profile = data;
+    double all[VARIABLES];
+    memcpy(all, profile->best->at, sizeof all);
+    all[profile->k] = at;
+    if (!*profile->good || !minimise(profile->fit, (int)profile->k, all, profile->err)) {
+        *profile->good = false;
+        return 0.0;
+    }
+    const double rise = fmax(misfit(profile->fit, all) - profile->least, 0.0);
+    return rise * profile->fit->unit[profile->k] * profile->fit->unit[profile->k];
+}
+
+/* The end of an interval on the side of `box`, `half` away in a linear model. */
+static double find_end(const struct profile *profile, double half, double box,
+                       double limit)
+{
+    const double at = profile->best->at[profile->k];
+    const double linear = box > at ? at + half : at - half;
+    const struct gb_exponent_profile crossing = {squares_at, profile};
+    if (box != at && squares_at(box, profile) > half * half) {
+        return gb_exponent_profile_crossing(&crossing, half * half, at, box);
+    }
+    return limit < at ? fmax(fmin(linear, box), limit) : fmin(fmax(linear, box), limit);
+}
+
+static bool is_linear(const struct profile *profile, double half)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        const double end = profile->best->at[profile->k] + side * half;
+        if (end < profile->fit->problem->low[profile->k] ||
+            end > profile->fit->problem->high[profile->k] ||
+            fabs(sqrt(squares_at(end, profile)) - half) > linear_enough * half) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* half: of the intervals of a linear model. */
+static bool set_intervals(const struct fit *fit, double least, const double *half,
+                          struct gb_estimate *to, struct gb_error *err)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    bool good = true;
+    for (size_t k = 0; k < problem->variables; k++) {
+        const struct profile profile = {fit, to, k, least, err, &good};
+        if (!isfinite(half[k])) {
+            to->low_95[k] = problem->least[k];
+            to->high_95[k] = problem->most[k];
+        } else if (is_linear(&profile, half[k])) {
+            to->low_95[k] = to->at[k] - half[k];
+            to->high_95[k] = to->at[k] + half[k];
+        } else {
+            to->low_95[k] =
+                find_end(&profile, half[k], problem->low[k], problem->least[k]);
+            to->high_95[k] =
+                find_end(&profile, half[k], problem->high[k], problem->most[k]);
+        }
+    }
+    return good;
 }
 
 static bool alloc_fit(struct fit *fit, struct gb_error *err)
@@ -339,7 +441,7 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
                      struct gb_error *err)
 {
     struct fit fit = {.problem = problem};
-    double effect[VARIABLES];
+    double effect[VARIABLES], half[VARIABLES];
     *estimate = (struct gb_estimate){0};
     const size_t needed = problem->variables + (problem->error == NULL);
     if (problem->data < needed || problem->seeds < 2) {
@@ -353,11 +455,12 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
         return false;
     }
     set_weights(&fit);
-    const bool good = minimise(&fit, estimate->at, err) &&
-                      set_slope(&fit, estimate->at, err) && set_gain(&fit, effect, err);
+    find_start(&fit, estimate->at);
+    bool good = minimise(&fit, NONE, estimate->at, err) &&
+                set_slope(&fit, estimate->at, err) && set_gain(&fit, effect, err);
     if (good) {
-        double weighted = misfit(&fit, estimate->at); /* also sets fit.mean */
-        weighted = problem->weight != NULL ? chi_squared(&fit) : weighted;
+        const double least = misfit(&fit, estimate->at); /* also sets fit.mean */
+        const double weighted = problem->weight != NULL ? chi_squared(&fit) : least;
         double squares = 0.0;
         for (size_t i = 0; i < problem->data; i++) {
             const double off = fit.mean[i] - problem->value[i];
@@ -368,7 +471,9 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
         estimate->rms = sqrt(squares / (double)problem->data);
         estimate->chi_squared = problem->error ? weighted : (double)NAN;
         const size_t degrees = problem->data - problem->variables;
-        set_errors(&fit, effect, degrees > 0 ? squares / (double)degrees : 0.0, estimate);
+        set_errors(&fit, effect, degrees > 0 ? squares / (double)degrees : 0.0, estimate,
+                   half);
+        good = set_intervals(&fit, least, half, estimate, err);
     }
     gb_alloc_free(fit.mean);
     return good;

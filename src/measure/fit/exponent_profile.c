@@ -75,7 +75,8 @@ double gb_exponent_profile_crossing(const struct gb_exponent_profile *profile,
     double low = fmin(inside, outside);
     double high = fmax(inside, outside);
     const bool rising = outside > inside;
-    for (int i = 0; i < ITERATIONS && high - low > 1e-12 * high; i++) {
+    for (int i = 0; i < ITERATIONS && high - low > 1e-12 * fmax(fabs(low), fabs(high));
+         i++) {
         const double middle = 0.5 * (low + high);
         const bool beyond = profile->squares(middle, profile->data) > level;
         if (beyond == rising) {

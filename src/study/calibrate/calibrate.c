@@ -99,14 +99,18 @@ static void set_result(const struct fit *fit, const struct gb_estimate *estimate
 {
     for (size_t k = 0; k < fit->problem->free; k++) {
         const double half = fit->region.half[k];
-        const double value = fit->region.centre[k] + half * estimate->at[k];
+        const double low = fit->problem->low[k];
+        const double high = fit->problem->high[k];
+        const double value =
+            fmin(fmax(fit->region.centre[k] + half * estimate->at[k], low), high);
         const double margin = 1e-3 * half;
         result->value[k] = value;
         result->error[k] = half * estimate->error[k];
-        result->low[k] = value - half * estimate->half_95[k];
-        result->high[k] = value + half * estimate->half_95[k];
-        result->at_limit[k] = value <= fit->problem->low[k] + margin ||
-                              value >= fit->problem->high[k] - margin;
+        result->low[k] = fmax(fit->region.centre[k] + half * estimate->low_95[k], low);
+        result->high[k] = fmin(fit->region.centre[k] + half * estimate->high_95[k], high);
+        result->low_open[k] = result->low[k] <= low + margin;
+        result->high_open[k] = result->high[k] >= high - margin;
+        result->at_limit[k] = value <= low + margin || value >= high - margin;
         memcpy(result->correlation[k], estimate->correlation[k],
                sizeof result->correlation[k]);
     }
@@ -129,9 +133,10 @@ static bool fit_data(const struct fit *fit, const struct gb_surrogate *seeds,
                                        .weight = problem->weight,
                                        .seed = seeds};
     for (size_t k = 0; k < problem->free; k++) {
-        data.low[k] = fmax(-1.0, (problem->low[k] - region->centre[k]) / region->half[k]);
-        data.high[k] =
-            fmin(1.0, (problem->high[k] - region->centre[k]) / region->half[k]);
+        data.least[k] = (problem->low[k] - region->centre[k]) / region->half[k];
+        data.most[k] = (problem->high[k] - region->centre[k]) / region->half[k];
+        data.low[k] = fmax(-1.0, data.least[k]);
+        data.high[k] = fmin(1.0, data.most[k]);
     }
     if (!gb_estimate_fit(&data, &estimate, result->fitted, result->fitted_error, err)) {
         return false;

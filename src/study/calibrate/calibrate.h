@@ -47,8 +47,10 @@ struct gb_calibrate_problem {
 struct gb_calibrate_result {
     double value[GB_CALIBRATE_FREE];
     double error[GB_CALIBRATE_FREE]; /* standard error; infinite: not determined */
-    double low[GB_CALIBRATE_FREE];   /* 95 % interval */
+    double low[GB_CALIBRATE_FREE];   /* 95 % interval, within the limits */
     double high[GB_CALIBRATE_FREE];
+    bool low_open[GB_CALIBRATE_FREE]; /* it ends at the limit, not in the data */
+    bool high_open[GB_CALIBRATE_FREE];
     double correlation[GB_CALIBRATE_FREE][GB_CALIBRATE_FREE];
     bool at_limit[GB_CALIBRATE_FREE]; /* the best fit may lie beyond the limits */
     double *fitted;                   /* data: simulated at the best fit */

@@ -22,13 +22,14 @@ static GString *parameter_table(const struct gb_calibration *calibration)
     const struct gb_calibrate_result *result = &calibration->result;
     const size_t n = calibration->keys.count;
     char name[NAME_MAX_BYTES];
-    GString *text =
-        g_string_new("# best fit, standard error and 95 % interval; SI, or the "
-                     "multiple that the preset gives\nkey,unit,value,error,"
-                     "low_95,high_95");
+    GString *text = g_string_new(
+        "# best fit, standard error and 95 % interval; SI, or the "
+        "multiple that the preset gives; open (1): the interval ends at that "
+        "limit of the range\nkey,unit,value,error,low_95,high_95");
     for (size_t k = 0; k < n; k++) {
         g_string_append_printf(text, ",correlation_%s", name_of(calibration, k, name));
     }
+    g_string_append(text, ",low_open,high_open");
     for (size_t k = 0; k < n; k++) {
         const struct gb_free_key *key = &calibration->keys.key[k];
         g_string_append_printf(
@@ -38,6 +39,7 @@ static GString *parameter_table(const struct gb_calibration *calibration)
         for (size_t l = 0; l < n; l++) {
             g_string_append_printf(text, ",%.4f", result->correlation[k][l]);
         }
+        g_string_append_printf(text, ",%d,%d", result->low_open[k], result->high_open[k]);
     }
     g_string_append_c(text, '\n');
     return text;
@@ -157,6 +159,15 @@ static void add_parameter(GString *text, const struct gb_calibration *calibratio
     g_string_append_printf(text, "%s = %s, 95 %%: %.4g to %.4g%s%s\n", name,
                            write_value(result->value[k], result->error[k], number),
                            result->low[k], result->high[k], *unit ? " " : "", unit);
+    if (result->low_open[k] || result->high_open[k]) {
+        const char *end = result->low_open[k] ? "lower limit" : "upper limit";
+        g_string_append_printf(text,
+                               "  the data leave the interval open: it ends at the %s of "
+                               "the range %.4g to %.4g\n",
+                               result->low_open[k] && result->high_open[k] ? "limits"
+                                                                           : end,
+                               key->low, key->high);
+    }
     if (result->at_limit[k]) {
         g_string_append_printf(text,
                                "  at the limit of its range %.4g to %.4g: the best value "
