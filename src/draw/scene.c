@@ -167,7 +167,8 @@ static bool begin(struct gb_scene **out, const struct gb_state *state, size_t ro
     const struct gb_viewpoint along_y = {
         .azimuth_deg = -90.0,
         .orthographic = true,
-        .extent = {viewpoint->extent[0], 0.0, viewpoint->extent[2]}};
+        .extent = {viewpoint->extent[0], 0.0, viewpoint->extent[2]},
+        .lowest = {viewpoint->lowest[0], 0.0, viewpoint->lowest[2]}};
     const size_t parts[3] = {(size_t)state->count, rods, 0};
     double cell[3];
     memcpy(cell, state->cell, sizeof cell);

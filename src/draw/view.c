@@ -103,7 +103,8 @@ double gb_view_scale(const struct gb_view *view)
 }
 
 /* Bounds of the box grown by margin in the plane of focal length 1, and depths. */
-static void find_bounds(struct gb_view *view, const double cell[3], double margin)
+static void find_bounds(struct gb_view *view, const double lowest[3],
+                        const double highest[3], double margin)
 {
     double *low = view->low;
     double *high = view->high;
@@ -113,7 +114,7 @@ static void find_bounds(struct gb_view *view, const double cell[3], double margi
         double point[3];
         double eye[3];
         for (int k = 0; k < 3; k++) {
-            point[k] = (corner >> k & 1) != 0 ? cell[k] + margin : -margin;
+            point[k] = (corner >> k & 1) != 0 ? highest[k] + margin : lowest[k] - margin;
         }
         gb_view_eye(view, point, eye);
         for (int k = 0; k < 2; k++) {
@@ -138,6 +139,21 @@ void gb_view_set_frame(struct gb_view *view, const struct gb_frame *frame)
         frame->top + 0.5 * frame->height + 0.5 * view->focal * (low[1] + high[1]);
 }
 
+void gb_view_include(struct gb_viewpoint *viewpoint, const struct gb_cell *cell)
+{
+    double matrix[3][3];
+    gb_cell_matrix(cell, matrix);
+    for (int k = 0; k < 3; k++) {
+        double low = 0.0, high = 0.0;
+        for (int edge = 0; edge < 3; edge++) {
+            low += fmin(matrix[k][edge], 0.0);
+            high += fmax(matrix[k][edge], 0.0);
+        }
+        viewpoint->lowest[k] = fmin(viewpoint->lowest[k], low);
+        viewpoint->extent[k] = fmax(viewpoint->extent[k], high);
+    }
+}
+
 void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
                   const double cell[3], double margin, const struct gb_frame *frame)
 {
@@ -146,12 +162,13 @@ void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
     *view = (struct gb_view){.orthographic = viewpoint->orthographic, .focal = 1.0};
     set_axes(view, viewpoint);
     for (int k = 0; k < 3; k++) {
-        view->target[k] = 0.5 * extent[k];
-        diagonal += (extent[k] + 2.0 * margin) * (extent[k] + 2.0 * margin);
+        const double width = extent[k] - viewpoint->lowest[k] + 2.0 * margin;
+        view->target[k] = 0.5 * (viewpoint->lowest[k] + extent[k]);
+        diagonal += width * width;
     }
     if (!viewpoint->orthographic) {
         view->distance = viewer_distance * 0.5 * sqrt(diagonal);
     }
-    find_bounds(view, extent, margin);
+    find_bounds(view, viewpoint->lowest, extent, margin);
     gb_view_set_frame(view, frame);
 }

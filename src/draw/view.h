@@ -4,13 +4,15 @@
 #include <stdbool.h>
 
 #include "greenbody/status.h"
+#include "pack/cell/cell.h"
 
 /* Direction of view of a picture. */
 struct gb_viewpoint {
     double azimuth_deg;   /* of the viewer around z; 0 is on the x axis, -90 on -y */
     double elevation_deg; /* of the viewer above the x-y plane */
     bool orthographic;
-    double extent[3]; /* edges of the box that fits the frame; 0: the packing's */
+    double extent[3]; /* upper corner of the box that fits the frame; 0: the packing's */
+    double lowest[3]; /* its lower corner: below 0 for tilted cells */
 };
 
 /* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in
@@ -18,6 +20,9 @@ struct gb_viewpoint {
  * saying what is accepted. */
 bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint,
                    struct gb_error *err);
+
+/* Extends the box that fits the frame by the corners of a cell. */
+void gb_view_include(struct gb_viewpoint *viewpoint, const struct gb_cell *cell);
 
 /* Rectangle of the image that the box may fill, pixels, y downwards. */
 struct gb_frame {
@@ -34,7 +39,8 @@ struct gb_view {
     double focal, centre[2];
     bool orthographic;
     double near, far; /* depths of the box and the spheres that extend beyond it */
-    double low[2], high[2]; /* what fits the frame: x/w and y/w, x and y when orthographic */
+    double low[2],
+        high[2]; /* what fits the frame: x/w and y/w, x and y when orthographic */
 };
 
 /* Camera with the whole box in its frame, with `margin` around it, as large as the frame

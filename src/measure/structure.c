@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/mat.h"
 #include "pack/structure/grid_search.h"
 
 /* A grid finer than this share of the reach makes a search visit more cells than it
@@ -51,46 +50,6 @@ static void count_pairs(const struct gb_grid *grid, double r_max, int bins, doub
     }
 }
 
-/* Squared distance of nearest images, with the edge vectors and their inverse at hand. */
-static double nearest_square(const struct gb_cell *cell, const double matrix[3][3],
-                             const double inverse[3][3], const double r[3])
-{
-    double fraction[3], nearest[3];
-    gb_mat_apply(inverse, r, fraction);
-    for (int k = 0; k < 3; k++) {
-        fraction[k] -= cell->periodic[k] ? gb_cell_whole(fraction[k]) : 0.0;
-    }
-    gb_mat_apply(matrix, fraction, nearest);
-    return gb_vec_dot(nearest, nearest);
-}
-
-/* Particles whose pairs are counted in a tilted cell: 1/40 s. */
-static const int64_t centres_most = 1000;
-
-/* The same in a tilted cell, which the grid does not support: pairs of every n-th
- * particle with all others stand for all pairs. */
-static void count_all_pairs(const struct gb_cell *cell, int64_t count,
-                            const double *position, double r_max, int bins, double *pairs)
-{
-    const int64_t each = (count + centres_most - 1) / centres_most;
-    const int64_t centres = (count + each - 1) / each;
-    double matrix[3][3], inverse[3][3];
-    gb_cell_matrix(cell, matrix);
-    gb_cell_inverse(cell, inverse);
-    for (int64_t i = 0; i < count; i += each) {
-        for (int64_t j = 0; j < count; j++) {
-            const double *a = position + 3 * i, *b = position + 3 * j;
-            const double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-            const double square = nearest_square(cell, (const double(*)[3])matrix,
-                                                 (const double(*)[3])inverse, r);
-            const int bin = (int)(sqrt(square) / r_max * bins);
-            if (i != j && bin < bins) {
-                pairs[bin] += 0.5 * (double)count / (double)centres;
-            }
-        }
-    }
-}
-
 bool gb_structure_rdf(const struct gb_cell *cell, int64_t count, const double *position,
                       double r_max, int bins, double *g, struct gb_error *err)
 {
@@ -103,16 +62,12 @@ bool gb_structure_rdf(const struct gb_cell *cell, int64_t count, const double *p
             r_max, bins, half);
     }
     memset(g, 0, (size_t)bins * sizeof(*g));
-    if (gb_cell_tilted(cell)) {
-        count_all_pairs(cell, count, position, r_max, bins, g);
-    } else {
-        struct gb_grid *grid;
-        if (!sort_positions(&grid, cell, count, position, r_max, err)) {
-            return false;
-        }
-        count_pairs(grid, r_max, bins, g);
-        gb_grid_destroy(grid);
+    struct gb_grid *grid;
+    if (!sort_positions(&grid, cell, count, position, r_max, err)) {
+        return false;
     }
+    count_pairs(grid, r_max, bins, g);
+    gb_grid_destroy(grid);
     /* (14) with dM twice the pairs and v0 / rho = V / N; the shell's exact volume instead
      * of 4 pi r^2 dr, so that an ideal gas gives 1 in wide bins too. */
     const bool planar = !cell->periodic[1];

@@ -11,7 +11,7 @@
 
 /* Radial distribution function, P1 eq. (14) (2D: its planar form).
  *
- * r_max      at most half the shortest periodic edge
+ * r_max      at most half the least height of the cell (gb_cell_shortest)
  * g          bins values; bin k covers [k, k+1) r_max / bins
  * Errors: GB_ERR_INPUT for r_max out of range, GB_ERR_MEMORY.  Cost linear in count for a
  * fixed r_max (cell grid). */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/mat.h"
 #include "io/state/state_stress.h"
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
@@ -62,26 +63,49 @@ static void describe_die(const struct gb_state *state, struct gb_view_start *sta
     }
 }
 
-/* Distance from where the particle was; in a cell beside its affine motion. */
-static double displacement(const struct gb_state *state,
+/* Distance from where the particle was; in a cell without its affine motion. */
+static double displacement(const struct gb_state *state, const struct gb_cell *cell,
                            const struct gb_view_start *start, int64_t i)
 {
-    const struct gb_cell cell = gb_state_cell(state);
+    const double *now = state->position + 3 * i, *then = start->position + 3 * i;
+    const double *edge = start->cell.edge;
     double moved[3];
     if (start->count != state->count) {
         return 0.0;
     }
+    if (gb_cell_tilted(cell) || gb_cell_tilted(&start->cell)) {
+        const struct gb_deformation motion = gb_cell_motion(&start->cell, cell);
+        gb_mat_apply(motion.f, then, moved);
+        for (int c = 0; c < 3; c++) {
+            moved[c] = now[c] - moved[c];
+        }
+        gb_cell_nearest(cell, moved);
+        return gb_vec_length(moved);
+    }
     for (int c = 0; c < 3; c++) {
-        const double scale = state->die_radius > 0.0 ? 1.0 : state->cell[c] / start->edge[c];
-        const double middle = state->die_radius > 0.0 && c < 2
-                                  ? 0.5 * (state->cell[c] - start->edge[c])
-                                  : 0.0;
-        moved[c] = state->position[3 * i + c] - middle - scale * start->position[3 * i + c];
+        const double scale = state->die_radius > 0.0 ? 1.0 : cell->edge[c] / edge[c];
+        const double middle =
+            state->die_radius > 0.0 && c < 2 ? 0.5 * (cell->edge[c] - edge[c]) : 0.0;
+        moved[c] = now[c] - middle - scale * then[c];
     }
     if (!(state->die_radius > 0.0)) {
-        gb_cell_nearest(&cell, moved);
+        gb_cell_nearest(cell, moved);
     }
-    return sqrt(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
+    return gb_vec_length(moved);
+}
+
+/* The image of a particle in the upright box of the edges, which holds one image of every
+ * particle whatever the tilts. */
+static void put_upright(const struct gb_cell *cell, double x[3])
+{
+    double matrix[3][3];
+    gb_cell_matrix(cell, matrix);
+    for (int k = 2; k >= 0; k--) {
+        const double whole = cell->periodic[k] ? floor(x[k] / cell->edge[k]) : 0.0;
+        for (int c = 0; c <= k; c++) {
+            x[c] -= whole * matrix[c][k];
+        }
+    }
 }
 
 /* Particles of the window.  A periodic cell is cut at y = 0; a die through its middle, unless
@@ -92,10 +116,15 @@ static void copy_front(const struct gb_state *state, const struct gb_view_start 
     const double cut = sample->die.shown ? 0.5 * state->cell[1] : 0.0;
     const double shift =
         sample->die.shown ? 0.5 * (sample->window[0] - state->cell[0]) : 0.0;
+    const struct gb_cell cell = gb_state_cell(state);
+    const bool tilted = gb_cell_tilted(&cell);
     sample->whole = sample->die.shown && state->count <= GB_VIEW_SAMPLE_POINTS;
     for (int64_t i = 0; i < state->count && sample->count < GB_VIEW_SAMPLE_POINTS; i++) {
         const double *at = state->position + 3 * i;
-        const double position[3] = {at[0] + shift, at[1] - cut, at[2]};
+        double position[3] = {at[0] + shift, at[1] - cut, at[2]};
+        if (tilted) {
+            put_upright(&cell, position);
+        }
         bool inside = position[1] >= 0.0;
         for (int c = 0; c < 3; c++) {
             inside = inside && position[c] <= sample->window[c];
@@ -110,7 +139,7 @@ static void copy_front(const struct gb_state *state, const struct gb_view_start 
             sample->value[GB_VIEW_VALUE_PRESSURE][k] =
                 stress != NULL ? (float)(1e-6 * stress[i]) : NAN;
             sample->value[GB_VIEW_VALUE_DISPLACEMENT][k] =
-                (float)displacement(state, start, i);
+                (float)displacement(state, &cell, start, i);
         }
     }
 }
@@ -141,12 +170,12 @@ static void note_start(const struct gb_state *state, bool pressed,
         return;
     }
     if (start->position == NULL) {
-        start->position = gb_alloc_array((size_t)state->count,
-                                         3 * sizeof *start->position, NULL);
+        start->position =
+            gb_alloc_array((size_t)state->count, 3 * sizeof *start->position, NULL);
     }
     if (start->position != NULL) {
         memcpy(start->position, state->position, bytes);
-        memcpy(start->edge, state->cell, sizeof start->edge);
+        start->cell = gb_state_cell(state);
         start->count = state->count;
         start->pressed = pressed;
     }

@@ -330,13 +330,15 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         model->numerics.cutoff + model->numerics.skin + model->diameter_max - 1.0;
     for (int k = 0; k < 3; k++) {
         const bool periodic = params->dimension == 3 || k != 1;
-        if (periodic && model->edges[k] < GB_EDGE_OVER_RANGE_MIN * reach) {
+        const double width =
+            model->packing ? gb_imported_spacing(model->packing, k) : model->edges[k];
+        if (periodic && width < GB_EDGE_OVER_RANGE_MIN * reach) {
             return gb_error_set(
                 err, GB_ERR_INPUT,
                 "particles.count = %lld, structure.base: the cell is %.3g d "
                 "wide along %c, less than twice the interaction range %.3g d; "
                 "increase the count or change the base",
-                (long long)params->count, model->edges[k], "xyz"[k], reach);
+                (long long)params->count, width, "xyz"[k], reach);
         }
     }
     return true;

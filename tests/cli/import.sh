@@ -136,6 +136,15 @@ for cell in box xy xz; do
     points "cell-$cell" >two
     is 'as the packing that it is' same_points
 done
+for cell in box xy xz; do
+    # shellcheck disable=SC2086
+    is "the packing $cell is measured" in_patience "$greenbody" pack default $tilted \
+        structure.from=$cell.csv particles.count=400 --out "pack-$cell" >stdout 2>stderr
+    # shellcheck disable=SC2016
+    sed -n '/^coordination/,/^spans/p' stdout >"pack-$cell.txt"
+    is 'with the contacts and clusters that it has' cmp -s pack-box.txt "pack-$cell.txt"
+done
+is 'with its tilts' grep -q '^# tilts xy xz yz, d: [1-9]' pack-xy/packing.csv
 is 'its table has the tilts' grep -q '^# cell, d: .* tilt xy xz yz, d: [1-9]' cell-xy/structure.csv
 in_patience "$greenbody" verify cell-xy >stdout 2>stderr
 result 'a run in a tilted cell is verified' $?

@@ -67,6 +67,35 @@ static void test_fit(void)
     }
 }
 
+/* The frame of a sequence holds all corners of every cell, also of the tilted ones. */
+static void test_fit_of_a_sequence(void)
+{
+    static const double tilt[][3] = {
+        {0.0, 0.0, 0.0}, {2.0, -1.9, -2.4}, {-2.0, 2.0, 2.5}};
+    struct gb_viewpoint viewpoint = {.azimuth_deg = -90.0};
+    struct gb_cell cells[G_N_ELEMENTS(tilt)];
+    struct gb_view view;
+    for (size_t i = 0; i < G_N_ELEMENTS(tilt); i++) {
+        gb_cell_init(&cells[i], 3, (const double[3]){4.0, 5.0, 9.0});
+        memcpy(cells[i].tilt, tilt[i], sizeof tilt[i]);
+        gb_view_include(&viewpoint, &cells[i]);
+    }
+    gb_view_init(&view, &viewpoint, cells[0].edge, 0.5, &frame);
+    for (size_t i = 0; i < G_N_ELEMENTS(tilt); i++) {
+        double matrix[3][3];
+        gb_cell_matrix(&cells[i], matrix);
+        for (int corner = 0; corner < 8; corner++) {
+            double point[3];
+            for (int k = 0; k < 3; k++) {
+                point[k] = (corner & 1) * matrix[k][0] +
+                           (corner >> 1 & 1) * matrix[k][1] +
+                           (corner >> 2 & 1) * matrix[k][2];
+            }
+            assert_inside(&view, point);
+        }
+    }
+}
+
 static void test_front_is_upright(void)
 {
     const double cell[3] = {4.0, 5.0, 9.0};
@@ -244,6 +273,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/draw/scene/fit", test_fit);
+    g_test_add_func("/draw/scene/fit-of-a-sequence", test_fit_of_a_sequence);
     g_test_add_func("/draw/scene/front-is-upright", test_front_is_upright);
     g_test_add_func("/draw/scene/views", test_views);
     g_test_add_func("/draw/scene/sizes", test_sizes);

@@ -272,6 +272,32 @@ static void test_moduli(void)
     }
 }
 
+/* g(r) of a tilted cell ends at half its least height, not at half an edge. */
+static void test_tilted_distances(void)
+{
+    static const char *const words[] = {"tilted", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    struct gb_state *state = NULL;
+    figure_runs_quasistatic("tilted", 7, "10 nm", 0.0);
+    char *path = figure_folder_path("tilted", "state.h5");
+    g_assert_true(gb_state_read(&state, path, &err));
+    state->tilt[0] = 0.45 * state->cell[0];
+    state->tilt[1] = -0.5 * state->cell[0];
+    struct gb_cell cell = gb_state_cell(state);
+    for (int64_t i = 0; i < state->count; i++) {
+        gb_cell_wrap(&cell, &state->position[3 * i]);
+    }
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    g_assert_true(figure_folder_named("rdf", words, &series, &err));
+    const double last = figure_folder_column(&series, "r")[series.rows - 1];
+    g_assert_cmpfloat(fabs(last - 0.5 * gb_cell_shortest(&cell)), <, 0.05);
+    g_assert_cmpfloat(last, <, 0.9 * 0.5 * state->cell[0]);
+    gb_series_finish(&series);
+    gb_state_destroy(state);
+    g_free(path);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -282,6 +308,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/strength_numbers", test_strength_numbers);
     g_test_add_func("/figures/strength_at", test_strength_at);
     g_test_add_func("/figures/series", test_series);
+    g_test_add_func("/figures/tilted-distances", test_tilted_distances);
     g_test_add_func("/figures/force-unit", test_force_unit);
     g_test_add_func("/figures/fit", test_fit);
     g_test_add_func("/figures/moduli", test_moduli);

@@ -77,6 +77,47 @@ static void test_ideal_gas(void)
     g_rand_free(random);
 }
 
+/* A packing has the same g(r) and the same contacts in an upright cell and in a tilted one
+ * of the same lattice of images. */
+static void test_tilted(void)
+{
+    enum { COUNT = 400, BINS = 40 };
+    GRand *random = g_rand_new_with_seed(5);
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        const struct gb_cell upright = make_cell(dimension, 6.0, 7.0, 8.0);
+        struct gb_cell tilted = upright;
+        struct gb_error err = {0};
+        double position[3 * COUNT], g[2][BINS];
+        struct gb_connectivity found[2];
+        for (int i = 0; i < 3 * COUNT; i++) {
+            position[i] = upright.periodic[i % 3]
+                              ? g_rand_double_range(random, 0.0, upright.edge[i % 3])
+                              : 0.0;
+        }
+        tilted.tilt[1] = -6.0;
+        if (dimension == 3) {
+            tilted.tilt[0] = 6.0;
+            tilted.tilt[2] = 7.0;
+        }
+        const double reach = 0.5 * gb_cell_shortest(&tilted);
+        g_assert_cmpfloat(reach, <, 0.5 * gb_cell_shortest(&upright));
+        for (int k = 0; k < 2; k++) {
+            const struct gb_cell *cell = k == 0 ? &upright : &tilted;
+            g_assert_true(
+                gb_structure_rdf(cell, COUNT, position, reach, BINS, g[k], &err));
+            g_assert_true(gb_structure_connectivity(cell, COUNT, position, NULL, 0.6,
+                                                    &found[k], &err));
+        }
+        for (int k = 0; k < BINS; k++) {
+            g_assert_cmpfloat_with_epsilon(g[0][k], g[1][k], 1e-9);
+        }
+        g_assert_cmpfloat(found[0].coordination, ==, found[1].coordination);
+        g_assert_cmpint(found[0].clusters, ==, found[1].clusters);
+        g_assert_cmpint(found[0].largest, ==, found[1].largest);
+    }
+    g_rand_free(random);
+}
+
 static void test_rdf_input(void)
 {
     const struct gb_cell cell = make_cell(3, 10.0, 12.0, 12.0);
@@ -212,9 +253,12 @@ static void test_random_clusters(void)
     enum { COUNT = 300 };
     GRand *random = g_rand_new_with_seed(3);
     double position[3 * COUNT];
-    const struct gb_cell cell = make_cell(3, 7.0, 8.0, 9.0);
-    for (int round = 0; round < 20; round++) {
-        const double reach = 0.5 + 0.05 * round;
+    struct gb_cell cell = make_cell(3, 7.0, 8.0, 9.0);
+    for (int round = 0; round < 40; round++) {
+        const double reach = 0.5 + 0.05 * (round % 20);
+        if (round == 20) {
+            memcpy(cell.tilt, (const double[3]){3.4, -3.2, 3.9}, sizeof cell.tilt);
+        }
         for (int i = 0; i < 3 * COUNT; i++) {
             position[i] = g_rand_double_range(random, 0.0, cell.edge[i % 3]);
         }
@@ -248,6 +292,7 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/structure/lattice", test_lattice);
     g_test_add_func("/structure/ideal-gas", test_ideal_gas);
+    g_test_add_func("/structure/tilted", test_tilted);
     g_test_add_func("/structure/rdf-input", test_rdf_input);
     g_test_add_func("/structure/row", test_row);
     g_test_add_func("/structure/ring-and-diagonal", test_ring_and_diagonal);

@@ -6,13 +6,14 @@
 
 enum { POINTS = 200, IMAGES = 4 };
 
-static struct gb_grid *make_grid(int dimension, const double edges[3], double size,
-                                 GRand *random)
+static struct gb_grid *make_grid(int dimension, const double edges[3],
+                                 const double tilts[3], double size, GRand *random)
 {
     struct gb_cell cell;
     struct gb_grid *grid = NULL;
     struct gb_error err = {0};
     gb_cell_init(&cell, dimension, edges);
+    memcpy(cell.tilt, tilts, sizeof cell.tilt);
     g_assert_true(gb_grid_create(&grid, &cell, size, POINTS, &err));
     for (int i = 0; i < POINTS; i++) {
         double x[3];
@@ -35,7 +36,8 @@ static double sum_images(const struct gb_grid *grid, const double origin[3],
                          const void *data, int *count)
 {
     const int span = grid->cell.periodic[1] ? IMAGES : 0;
-    double sum = 0.0;
+    double sum = 0.0, matrix[3][3];
+    gb_cell_matrix(&grid->cell, matrix);
     *count = 0;
     for (int64_t i = 0; i < grid->count; i++) {
         for (int a = -IMAGES; a <= IMAGES; a++) {
@@ -44,8 +46,10 @@ static double sum_images(const struct gb_grid *grid, const double origin[3],
                     const int image[3] = {a, b, c};
                     double r[3];
                     for (int k = 0; k < 3; k++) {
-                        r[k] = grid->position[3 * i + k] + image[k] * grid->cell.edge[k] -
-                               origin[k];
+                        r[k] = grid->position[3 * i + k] - origin[k];
+                        for (int edge = 0; edge < 3; edge++) {
+                            r[k] += image[edge] * matrix[k][edge];
+                        }
                     }
                     if (accept(r, data)) {
                         (*count)++;
@@ -86,10 +90,11 @@ static void compare(int found, double found_sum, int expected, double expected_s
                                    1e-9 + 1e-12 * fabs(expected_sum));
 }
 
-static void check_searches(int dimension, const double edges[3], double size,
-                           GRand *random)
+/* Rays are for cells without tilt. */
+static void check_searches(int dimension, const double edges[3], const double tilts[3],
+                           double size, GRand *random)
 {
-    struct gb_grid *grid = make_grid(dimension, edges, size, random);
+    struct gb_grid *grid = make_grid(dimension, edges, tilts, size, random);
     for (int round = 0; round < 20; round++) {
         double origin[3], direction[3];
         double length = 0.0;
@@ -117,6 +122,9 @@ static void check_searches(int dimension, const double edges[3], double size,
         }
         const double in = sum_images(grid, origin, in_ball, &reach, &expected);
         compare(found, sum, expected, in);
+        if (gb_cell_tilted(&grid->cell)) {
+            continue;
+        }
         struct gb_grid_ray ray;
         found = 0;
         sum = 0.0;
@@ -132,17 +140,23 @@ static void check_searches(int dimension, const double edges[3], double size,
 }
 
 /* Balls and rays against all images, one by one: each is met once, in cells larger and
- * smaller than the search, with one grid cell and with many. */
+ * smaller than the search, upright and tilted, with one grid cell and with many. */
 static void test_searches(void)
 {
     const double cells[][3] = {{8.0, 7.0, 9.0}, {2.5, 6.0, 3.1}, {3.0, 3.0, 3.0}};
     const double sizes[] = {0.4, 1.0, 2.9, 100.0};
+    const double tilts[][3] = {{0.0, 0.0, 0.0}, {0.4, -0.5, 0.3}, {-0.5, 0.5, -0.5}};
     GRand *random = g_rand_new_with_seed(7);
     for (size_t c = 0; c < G_N_ELEMENTS(cells); c++) {
         for (size_t s = 0; s < G_N_ELEMENTS(sizes); s++) {
-            check_searches(3, cells[c], sizes[s], random);
-            const double plane[3] = {cells[c][0], 1.0, cells[c][2]};
-            check_searches(2, plane, sizes[s], random);
+            const double *edge = cells[c], plane[3] = {edge[0], 1.0, edge[2]};
+            for (size_t t = 0; t < G_N_ELEMENTS(tilts); t++) {
+                const double tilt[3] = {tilts[t][0] * edge[0], tilts[t][1] * edge[0],
+                                        tilts[t][2] * edge[1]};
+                const double planar[3] = {0.0, tilt[1], 0.0};
+                check_searches(3, edge, tilt, sizes[s], random);
+                check_searches(2, plane, planar, sizes[s], random);
+            }
         }
     }
     g_rand_free(random);

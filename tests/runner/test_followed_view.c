@@ -1,12 +1,15 @@
 /* The packing of a run of another process: that of its state.h5, and of each new one. */
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
+#include "base/mat.h"
 #include "common/patience.h"
 #include "common/run_directory.h"
 #include "common/scene.h"
 #include "io/state/state.h"
 #include "runner/runner.h"
+#include "runner/view_sampling.h"
 
 /* A run that goes on until it is stopped. */
 static struct gb_params long_scene(void)
@@ -103,9 +106,55 @@ static void test_states(void)
     run_directory_finish(&run_dir);
 }
 
+/* An affine shear moves no particle relative to its cell, and the upright window holds all
+ * particles of a tilted cell. */
+static void test_tilted(void)
+{
+    enum { COUNT = 50 };
+    struct gb_view_start start = {0};
+    struct gb_view_sample *sample = g_new0(struct gb_view_sample, 1);
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    GRand *random = g_rand_new_with_seed(2);
+    g_assert_true(gb_state_create(&state, COUNT, 0, &err));
+    state->dimension = 3;
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = 6.0 + k;
+    }
+    for (int k = 0; k < 3 * COUNT; k++) {
+        state->position[k] = g_rand_double_range(random, 0.0, state->cell[k % 3]);
+    }
+    gb_view_sampling_take_state(state, true, &start, sample);
+    const struct gb_deformation shear = {
+        .f = {{1.1, -0.1, 0.3}, {0.0, 0.9, -0.2}, {0.0, 0.0, 0.8}}};
+    struct gb_cell cell = gb_state_cell(state);
+    gb_cell_deform(&cell, &shear);
+    memcpy(state->cell, cell.edge, sizeof cell.edge);
+    memcpy(state->tilt, cell.tilt, sizeof cell.tilt);
+    for (int64_t i = 0; i < COUNT; i++) {
+        double at[3];
+        gb_mat_apply(shear.f, state->position + 3 * i, at);
+        memcpy(state->position + 3 * i, at, sizeof at);
+    }
+    gb_view_sampling_take_state(state, true, &start, sample);
+    g_assert_cmpint(sample->count, ==, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        g_assert_cmpfloat(sample->value[GB_VIEW_VALUE_DISPLACEMENT][i], <, 1e-6);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat(sample->position[i][k], >=, 0.0);
+            g_assert_cmpfloat(sample->position[i][k], <=, sample->window[k] + 1e-6);
+        }
+    }
+    gb_view_sampling_finish(&start);
+    gb_state_destroy(state);
+    g_rand_free(random);
+    g_free(sample);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/runner/followed-view/states", test_states);
+    g_test_add_func("/runner/followed-view/tilted", test_tilted);
     return g_test_run();
 }

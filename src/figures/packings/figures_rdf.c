@@ -17,16 +17,13 @@ static const double max_reach = 10.0;  /* d */
 /* Start of the distances that set the y axis, d: beyond the peak of contacts. */
 static const double beyond_contact_peak = 1.15;
 
-/* Half of the shortest periodic edge of all states, d. */
+/* Half of the least height of all cells, d. */
 static double find_reach(const struct gb_state_set *states)
 {
     double reach = max_reach;
     for (size_t i = 0; i < states->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            if (states->state[i]->dimension == 3 || k != 1) {
-                reach = fmin(reach, 0.5 * states->state[i]->cell[k]);
-            }
-        }
+        const struct gb_cell cell = gb_state_cell(states->state[i]);
+        reach = fmin(reach, 0.5 * gb_cell_shortest(&cell));
     }
     return reach;
 }

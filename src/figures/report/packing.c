@@ -43,6 +43,12 @@ static GString *packing_text(const struct gb_packing *packing)
     append_number(text, state->cell[0], ' ');
     append_number(text, state->cell[1], ' ');
     append_number(text, state->cell[2], '\n');
+    if (state->tilt[0] != 0.0 || state->tilt[1] != 0.0 || state->tilt[2] != 0.0) {
+        g_string_append(text, "# tilts xy xz yz, d: ");
+        append_number(text, state->tilt[0], ' ');
+        append_number(text, state->tilt[1], ' ');
+        append_number(text, state->tilt[2], '\n');
+    }
     g_string_append(text, is_bed(packing) ? "x_d,y_d,z_d,radius_d\n" : "x_d,y_d,z_d\n");
     for (int64_t i = 0; i < state->count; i++) {
         append_number(text, state->position[3 * i], ',');

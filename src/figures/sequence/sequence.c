@@ -69,10 +69,8 @@ static bool include_state(struct gb_packing_image *packing_image,
                           const struct gb_state *state, struct gb_error *err)
 {
     struct gb_picture_style *style = NULL;
-    double *extent = packing_image->viewpoint.extent;
-    for (int k = 0; k < 3; k++) {
-        extent[k] = fmax(extent[k], state->cell[k]);
-    }
+    const struct gb_cell cell = gb_state_cell(state);
+    gb_view_include(&packing_image->viewpoint, &cell);
     if (!gb_picture_style_create(&style, state, &packing_image->style, err)) {
         return false;
     }

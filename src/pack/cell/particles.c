@@ -21,15 +21,20 @@ static bool assign_diameters(struct gb_particles *particles, const struct gb_mod
     return particles->diameter && gb_assign_sizes_model(model, particles->diameter, err);
 }
 
+void gb_particles_cell(const struct gb_model *model, struct gb_cell *cell)
+{
+    gb_cell_init(cell, model->dimension, model->edges);
+    if (model->packing) {
+        memcpy(cell->tilt, model->packing->tilts, sizeof cell->tilt);
+    }
+}
+
 bool gb_particles_init(struct gb_particles *particles, const struct gb_model *model,
                        const double *position, struct gb_error *err)
 {
     const size_t n = (size_t)model->count;
     particles->count = model->count;
-    gb_cell_init(&particles->cell, model->dimension, model->edges);
-    if (model->packing) {
-        memcpy(particles->cell.tilt, model->packing->tilts, sizeof particles->cell.tilt);
-    }
+    gb_particles_cell(model, &particles->cell);
     particles->position = gb_alloc_array(3 * n, sizeof(double), err);
     particles->rotation = gb_alloc_array(3 * n, sizeof(double), err);
     particles->force = gb_alloc_array(3 * n, sizeof(double), err);

@@ -20,6 +20,8 @@ struct gb_particles {
     double *diameter;       /* d; NULL: all are 1 */
 };
 
+/* The cell of the scene, with the tilts of an imported packing. */
+void gb_particles_cell(const struct gb_model *model, struct gb_cell *cell);
 bool gb_particles_init(struct gb_particles *particles, const struct gb_model *model,
                        const double *position, struct gb_error *err);
 void gb_particles_finish(struct gb_particles *particles);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/mat.h"
 #include "base/portable.h"
 
 /* Grid cells for each point of the capacity: more would cost memory and empty visits. */
@@ -16,10 +17,31 @@ static void choose_cells(struct gb_grid *grid, double size)
         gb_cell_volume(&grid->cell) / (cells_per_point * (double)grid->capacity + 64.0);
     const double least = fmax(size, axes == 3 ? gb_portable_cbrt(room) : sqrt(room));
     for (int k = 0; k < 3; k++) {
-        const double blocks = floor(grid->cell.edge[k] / (GB_GRID_SIDE * least));
+        const double spacing = gb_cell_spacing(&grid->cell, k);
+        const double blocks = floor(spacing / (GB_GRID_SIDE * least));
         const bool many = grid->cell.periodic[k] && blocks > 1.0;
         grid->blocks[k] = many ? (int)fmin(blocks, 1e6) : 1;
-        grid->per_length[k] = GB_GRID_SIDE * grid->blocks[k] / grid->cell.edge[k];
+        grid->per_length[k] = GB_GRID_SIDE * grid->blocks[k] / spacing;
+    }
+}
+
+static void set_heights(struct gb_grid *grid)
+{
+    double inverse[3][3];
+    gb_cell_matrix(&grid->cell, grid->matrix);
+    gb_cell_inverse(&grid->cell, inverse);
+    for (int k = 0; k < 9; k++) {
+        grid->height[k / 3][k % 3] =
+            gb_cell_spacing(&grid->cell, k / 3) * inverse[k / 3][k % 3];
+    }
+}
+
+void gb_grid_heights(const struct gb_grid *grid, const double x[3], double height[3])
+{
+    if (grid->tilted) {
+        gb_mat_apply((const double(*)[3])grid->height, x, height);
+    } else {
+        memcpy(height, x, 3 * sizeof *height);
     }
 }
 
@@ -37,6 +59,8 @@ bool gb_grid_create(struct gb_grid **out, const struct gb_cell *cell, double siz
         return false;
     }
     grid->cell = *cell;
+    grid->tilted = gb_cell_tilted(cell);
+    set_heights(grid);
     grid->capacity = capacity;
     choose_cells(grid, size);
     const size_t points = capacity > 0 ? (size_t)capacity : 1;
@@ -88,11 +112,13 @@ void gb_grid_insert(struct gb_grid *grid, const double x[3])
     double *wrapped = grid->position + 3 * grid->count;
     memcpy(wrapped, x, 3 * sizeof(double));
     gb_cell_wrap(&grid->cell, wrapped);
+    double height[3];
+    gb_grid_heights(grid, wrapped, height);
     int block[3], bit = 0;
     for (int k = 0; k < 3; k++) {
         const int last = GB_GRID_SIDE * grid->blocks[k] - 1;
         const int at =
-            grid->cell.periodic[k] ? (int)(wrapped[k] * grid->per_length[k]) : 0;
+            grid->cell.periodic[k] ? (int)(height[k] * grid->per_length[k]) : 0;
         const int cell = at < last ? at : last;
         block[k] = cell / GB_GRID_SIDE;
         bit = GB_GRID_SIDE * bit + cell % GB_GRID_SIDE;

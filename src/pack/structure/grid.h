@@ -19,11 +19,17 @@ enum { GB_GRID_SIDE = 4, GB_GRID_BLOCK = GB_GRID_SIDE * GB_GRID_SIDE * GB_GRID_S
  * images beyond the nearest one and in cells smaller than the search.
  *
  * Grid cells lie in blocks of 4 x 4 x 4, and one word tells which of a block's 64 cells
- * hold points: a search visits these alone.  In 2D a block has one layer of cells. */
+ * hold points: a search visits these alone.  In 2D a block has one layer of cells.
+ *
+ * Grid cells are counted along the heights of the cell, which without tilt are its axes:
+ * a ball of radius r spans 2 r of every height. */
 struct gb_grid {
     struct gb_cell cell;
+    bool tilted;
+    double matrix[3][3]; /* of the edge vectors */
+    double height[3][3]; /* height[k] x: height of x over the face across edge vector k */
     int blocks[3];
-    double per_length[3]; /* grid cells per d */
+    double per_length[3]; /* grid cells per d of height */
     int64_t count;
     int64_t capacity;
     double *position;   /* capacity x 3, wrapped into the cell */
@@ -44,6 +50,9 @@ void gb_grid_destroy(struct gb_grid *grid); /* NULL is fine */
 
 /* Appends a point (finite; wrapped here).  The caller keeps to the capacity. */
 void gb_grid_insert(struct gb_grid *grid, const double x[3]);
+
+/* Heights of x over the faces of the cell, d; x itself without tilt. */
+void gb_grid_heights(const struct gb_grid *grid, const double x[3], double height[3]);
 
 /* Of a block with these indices, along every axis from 0 to below `blocks`. */
 size_t gb_grid_block_index(const struct gb_grid *grid, const int block[3]);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mat.h"
+
 /* Searches reach this much farther than asked, so that a point on the border of a grid
  * cell is not lost to rounding; the exact test follows. */
 static const double margin = 1e-9;
@@ -77,6 +79,10 @@ static void window_rewind(struct gb_grid_window *window, const struct gb_grid *g
 static uint64_t window_open(struct gb_grid_window *window, const struct gb_grid *grid)
 {
     const size_t index = gb_grid_block_index(grid, window->wrapped);
+    if (grid->tilted) {
+        const double whole[3] = {window->image[0], window->image[1], window->image[2]};
+        gb_mat_apply((const double(*)[3])grid->matrix, whole, window->shift);
+    }
     window->last = grid->last + GB_GRID_BLOCK * index;
     return grid->occupied[index] & window->mask[0] & window->mask[1] & window->mask[2];
 }
@@ -164,8 +170,10 @@ void gb_grid_search_ball_init(struct gb_grid_ball *ball, const struct gb_grid *g
     ball->grid = grid;
     ball->square = reach * reach;
     memcpy(ball->centre, centre, sizeof(ball->centre));
+    double height[3];
+    gb_grid_heights(grid, centre, height);
     for (int k = 0; k < 3; k++) {
-        window_range(&ball->window, grid, k, centre[k] - reach, centre[k] + reach);
+        window_range(&ball->window, grid, k, height[k] - reach, height[k] + reach);
     }
     window_start(&ball->window, grid);
 }

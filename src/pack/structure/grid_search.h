@@ -27,7 +27,7 @@ struct gb_grid_window {
 /* One image of one point. */
 struct gb_grid_hit {
     int64_t index;
-    int image[3];  /* the image is the point + image[k] edge[k] */
+    int image[3];  /* the image is the point + image[k] edge vectors k */
     double r[3];   /* from the centre of the ball, or the origin of the ray */
     double square; /* |r|^2 */
     double along;  /* ray only: r along the ray */
@@ -45,7 +45,7 @@ void gb_grid_search_ball_init(struct gb_grid_ball *ball, const struct gb_grid *g
                               const double centre[3], double reach);
 bool gb_grid_search_ball_next(struct gb_grid_ball *ball, struct gb_grid_hit *hit);
 
-/* All images within reach of a ray, with 0 <= along <= length, in no useful order. */
+/* In cells without tilt: all images within reach of a ray, with 0 <= along <= length, in no useful order. */
 struct gb_grid_ray {
     const struct gb_grid *grid;
     double origin[3];

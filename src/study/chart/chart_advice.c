@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
+#include "pack/cell/particles.h"
 #include "pack/structure/initial_structure.h"
 #include "scene/model.h"
 
@@ -21,7 +22,7 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
                   struct gb_error *err)
 {
     struct gb_cell cell;
-    gb_cell_init(&cell, model->dimension, model->edges);
+    gb_particles_cell(model, &cell);
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
     double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
     const bool done = position && g &&
@@ -46,7 +47,7 @@ static bool measure_g(struct gb_chart_size *size, const struct gb_chart_plan *pl
     if (!gb_model_init(&model, &params, err)) {
         return false;
     }
-    gb_cell_init(&cell, model.dimension, model.edges);
+    gb_particles_cell(&model, &cell);
     size->half_edge = 0.5 * gb_cell_shortest(&cell);
     const int bins = (int)ceil(size->half_edge / bin_width);
     const int seeds = plan->seeds < STRUCTURES ? plan->seeds : STRUCTURES;
