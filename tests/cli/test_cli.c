@@ -390,6 +390,14 @@ static void test_sizes(void)
     g_assert_cmpfloat_with_epsilon(g_ascii_strtod(sigma + 18, NULL), 0.547, 0.04);
     g_assert_nonnull(strstr(median, " nm\n"));
     program_finish(&result);
+    static const char two_powders[] =
+        "diameter_nm,count\n5,0\n10,400\n15,90\n20,2\n25,0\n30,3\n35,95\n40,350\n";
+    g_assert_true(g_file_set_contents(path, two_powders, -1, NULL));
+    result = call(words);
+    g_assert_cmpint(result.status, ==, 1);
+    g_assert_nonnull(strstr(result.err, "does not describe these sizes"));
+    g_assert_nonnull(strstr(result.out, "particles.sigma = "));
+    program_finish(&result);
     g_assert_true(g_file_set_contents(path, "diameter_nm,number\n2,11\n", -1, NULL));
     result = call(words);
     g_assert_cmpint(result.status, ==, 2);

@@ -1,3 +1,4 @@
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -78,6 +79,72 @@ static void test_samples(void)
     gsl_rng_free(rng);
 }
 
+/* A histogram of draws of the law, with middles in equal steps or equal ratios; the outer
+ * classes take what lies beyond. */
+static void draw(gsl_rng *rng, bool ratios, int classes, int particles, double *middle,
+                 double *weight)
+{
+    const double least = exp(p1_m - 3.2 * p1_sigma), largest = exp(p1_m + 3.2 * p1_sigma);
+    for (int i = 0; i < classes; i++) {
+        const double share = (i + 0.5) / classes;
+        middle[i] = ratios ? least * pow(largest / least, share) : largest * share;
+        weight[i] = 0.0;
+    }
+    for (int p = 0; p < particles; p++) {
+        const double x = gsl_ran_lognormal(rng, p1_m, p1_sigma);
+        int i = 0;
+        while (i + 1 < classes && x >= 0.5 * (middle[i] + middle[i + 1])) {
+            i++;
+        }
+        weight[i] += 1.0;
+    }
+}
+
+/* The true law is rejected at 5 % as often as that, whatever the classes: the count lies
+ * in the exact 99.9 % interval of a binomial law. */
+static void test_true_law(void)
+{
+    enum { TRIALS = 400 };
+    static const int classes[] = {12, 24, 48}, particles[] = {100, 300, 1000};
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    double middle[CLASSES + 8], weight[CLASSES + 8];
+    for (int k = 0; k < 18; k++) {
+        unsigned rejected = 0;
+        for (int t = 0; t < TRIALS; t++) {
+            struct gb_lognormal law;
+            const int n = classes[k % 3];
+            draw(rng, k >= 9, n, particles[k / 3 % 3], middle, weight);
+            g_assert_true(gb_lognormal_fit(&law, middle, weight, (size_t)n,
+                                           GB_LOGNORMAL_PARTICLES, NULL));
+            g_assert_cmpuint(law.degrees, >=, 1);
+            rejected += law.probability < GB_LOGNORMAL_REJECTED;
+        }
+        g_test_message("%d classes, %d particles: %u of %d rejected", classes[k % 3],
+                       particles[k / 3 % 3], rejected, TRIALS);
+        const double level = GB_LOGNORMAL_REJECTED;
+        g_assert_cmpfloat(gsl_cdf_binomial_P(rejected, level, TRIALS), >, 5e-4);
+        g_assert_cmpfloat(gsl_cdf_binomial_Q(rejected - 1, level, TRIALS), >, 5e-4);
+    }
+    gsl_rng_free(rng);
+}
+
+/* Two powders mixed, sizes of one class with a stray, a flat histogram: no law. */
+static void test_other_laws(void)
+{
+    static const double counts[][8] = {{200, 80, 5, 1, 1, 5, 80, 200},
+                                       {0, 1, 0, 500, 1, 0, 1, 1},
+                                       {100, 100, 100, 100, 100, 100, 100, 100}};
+    static const double middle[8] = {10, 20, 30, 40, 50, 60, 70, 80};
+    for (size_t k = 0; k < G_N_ELEMENTS(counts); k++) {
+        struct gb_lognormal law;
+        g_assert_true(
+            gb_lognormal_fit(&law, middle, counts[k], 8, GB_LOGNORMAL_PARTICLES, NULL));
+        g_assert_true(law.degrees == 0 || law.probability < GB_LOGNORMAL_REJECTED);
+        g_assert_true(law.degrees > 0 || isnan(law.chi_squared));
+        g_assert_true(law.degrees == 0 || law.chi_squared < 1e4);
+    }
+}
+
 static void test_refuse(void)
 {
     static const double middle[] = {1.0, 2.0, 3.0, 4.0};
@@ -105,6 +172,8 @@ int main(int argc, char **argv)
     gsl_set_error_handler_off();
     g_test_add_func("/lognormal/exact", test_exact);
     g_test_add_func("/lognormal/samples", test_samples);
+    g_test_add_func("/lognormal/true-law", test_true_law);
+    g_test_add_func("/lognormal/other-laws", test_other_laws);
     g_test_add_func("/lognormal/refuse", test_refuse);
     return g_test_run();
 }

@@ -88,14 +88,23 @@ static void print_law(const struct gb_lognormal *law, const char *unit)
                          gb_number_error(law->m, law->m_error, 2, " +- ", m),
                          gb_number_error(law->sigma, law->sigma_error, 2, " +- ", sigma),
                          law->correlation);
-        gb_visible_print(stdout, "# chi-squared %.3g for %zu degrees of freedom\n",
-                         law->chi_squared, law->degrees);
+        if (law->degrees > 0) {
+            gb_visible_print(stdout,
+                             "# chi-squared %.3g for %zu degrees of freedom: probability "
+                             "%.2g if the law is true\n",
+                             law->chi_squared, law->degrees, law->probability);
+        } else {
+            gb_visible_put(stdout, "# too few particles or classes to test the law\n");
+        }
     } else {
-        gb_visible_print(stdout, "%.4f, sigma = %.4f; no errors from shares\n", law->m,
-                         law->sigma);
+        gb_visible_print(stdout,
+                         "%.4f, sigma = %.4f; no errors and no test from shares\n",
+                         law->m, law->sigma);
     }
-    gb_visible_print(stdout, "# most frequent size %.4g %s\n",
-                     exp(law->m - law->sigma * law->sigma), unit);
+    gb_visible_print(stdout,
+                     "# the shares below a size differ from the law by %.2g %% at most\n"
+                     "# most frequent size %.4g %s\n",
+                     100.0 * law->distance, exp(law->m - law->sigma * law->sigma), unit);
 }
 
 static bool fit(char **words, struct gb_error *err)
@@ -115,6 +124,11 @@ static bool fit(char **words, struct gb_error *err)
     if (good) {
         print_law(&law, histogram.unit);
         print_keys(&law, histogram.unit);
+        good = !(law.probability < GB_LOGNORMAL_REJECTED) ||
+               gb_error_set(err, GB_ERR_GUARD,
+                            "%.200s: the log-normal law does not describe these sizes: "
+                            "probability %.2g, expected %g or more",
+                            words[0], law.probability, GB_LOGNORMAL_REJECTED);
     }
     gb_table_destroy(histogram.table);
     return good;
@@ -128,7 +142,9 @@ int gb_cmd_sizes(int argc, char **argv)
         "and prints it as keys of a preset.",
         "The file has a row per class: its middle in diameter_nm (or another unit of\n"
         "length) and the number of its particles, count, or their share, share_number.\n"
-        "Maximum likelihood; the limits of the classes lie halfway between the middles."};
+        "Maximum likelihood; the limits of the classes lie halfway between the middles.\n"
+        "A chi-squared test asks whether the law describes the counts.  If its probability\n"
+        "is below 0.05, a line says so and the exit status is 1."};
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;

@@ -13,6 +13,9 @@ static const double hessian_step = 1e-3;
 /* Least share of a class: the logarithm of 0 would make the likelihood infinite. */
 static const double share_least = 1e-300;
 
+/* Least expectation of a class of Pearson's test. */
+static const double expected_least = 5.0;
+
 struct histogram {
     const double *middle, *weight;
     size_t count;
@@ -158,15 +161,43 @@ static void set_errors(const struct histogram *histogram, struct gb_lognormal *l
     }
 }
 
+/* Pearson's test over merged classes.  A rest with less than the least expectation joins
+ * the class before it. */
 static void set_chi_squared(const struct histogram *histogram, struct gb_lognormal *law)
 {
-    law->chi_squared = 0.0;
+    double sum = 0.0, last = 0.0, observed = 0.0, expected = 0.0;
+    double last_observed = 0.0, last_expected = 0.0;
+    size_t classes = 0;
     for (size_t i = 0; i < histogram->count; i++) {
-        const double expected =
-            histogram->total *
-            gb_lognormal_share(law, border(histogram, i), border(histogram, i + 1));
-        const double off = histogram->weight[i] - expected;
-        law->chi_squared += off * off / fmax(expected, share_least);
+        const double from = i > 0 ? border(histogram, i) : 0.0;
+        const double to = i + 1 < histogram->count ? border(histogram, i + 1) : INFINITY;
+        observed += histogram->weight[i];
+        expected += histogram->total * gb_lognormal_share(law, from, to);
+        if (expected >= expected_least) {
+            classes++;
+            last = (observed - expected) * (observed - expected) / expected;
+            sum += last;
+            last_observed = observed;
+            last_expected = expected;
+            observed = expected = 0.0;
+        }
+    }
+    const double off = last_observed + observed - last_expected - expected;
+    sum += off * off / (last_expected + expected) - last;
+    if (classes > CLASSES_LEAST) {
+        law->chi_squared = sum;
+        law->degrees = classes - CLASSES_LEAST;
+        law->probability = gsl_cdf_chisq_Q(sum, (double)law->degrees);
+    }
+}
+
+static void set_distance(const struct histogram *histogram, struct gb_lognormal *law)
+{
+    double below = 0.0;
+    for (size_t i = 0; i + 1 < histogram->count; i++) {
+        below += histogram->weight[i] / histogram->total;
+        const double off = below - gb_lognormal_share(law, 0.0, border(histogram, i + 1));
+        law->distance = fmax(law->distance, fabs(off));
     }
 }
 
@@ -179,10 +210,11 @@ bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
                                  .sigma_error = NAN,
                                  .correlation = NAN,
                                  .chi_squared = NAN,
-                                 .degrees = count > 3 ? count - 3 : 0};
+                                 .probability = NAN};
     if (!check(&histogram, err) || !minimise(&histogram, law, err)) {
         return false;
     }
+    set_distance(&histogram, law);
     if (kind == GB_LOGNORMAL_PARTICLES) {
         set_errors(&histogram, law);
         set_chi_squared(&histogram, law);

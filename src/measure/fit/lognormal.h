@@ -12,9 +12,17 @@ struct gb_lognormal {
     double m_error,
         sigma_error;    /* standard errors; NaN where the particles are not known */
     double correlation; /* of the two errors */
-    double chi_squared; /* Pearson's, over the classes; NaN likewise */
-    size_t degrees;     /* classes less 3 */
+    /* Pearson's test.  Neighbouring classes are merged until each has 5 expected particles
+     * (Cochran, Biometrics 10, 417, 1954); the outer ones include all sizes beyond.  NaN
+     * without particles, and where fewer than 4 classes are left. */
+    double chi_squared;
+    size_t degrees;     /* classes left less 3; 0: no test */
+    double probability; /* of such a chi-squared or a larger one if the law is true */
+    double distance;    /* largest difference of law and data in the share below a size */
 };
+
+/* Below this probability a law does not describe the data. */
+#define GB_LOGNORMAL_REJECTED 0.05
 
 /* Share of the particles between two sizes, 0 <= from < to. */
 double gb_lognormal_share(const struct gb_lognormal *law, double from, double to);
@@ -30,7 +38,7 @@ enum gb_lognormal_weight {
  *
  * middle     count values above 0, ascending
  * weight     particles in the class, or any number proportional to it
- * kind       which of the two
+ * kind       which of the two; shares have no errors and no test
  * Errors: GB_ERR_INPUT (middles, weights, fewer than 3 classes with particles),
  * GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
 bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
