@@ -44,6 +44,11 @@ bool gb_parameters_get(const struct gb_parameters *parameters, const char *key,
  * GB_ERR_INPUT naming the keys. */
 bool gb_parameters_check(const struct gb_parameters *parameters, struct gb_error *err);
 
+/* Checks a plan of several cells that differ by structure.seed only.  Lattices and packings
+ * from a file are the same cell for every seed.  Errors: GB_ERR_INPUT. */
+bool gb_parameters_check_cells(const struct gb_parameters *parameters, size_t cells,
+                               struct gb_error *err);
+
 /* Writes a preset file, replaced as a whole: keys that differ from their defaults, and those
  * of the file that it was read from, with their comments. */
 bool gb_parameters_save(struct gb_parameters *parameters, const char *path,

@@ -109,6 +109,7 @@ FUNCTIONS = [
     ('parameters_set', c_bool, [c_void_p, c_char_p, ERR]),
     ('parameters_get', c_bool, [c_void_p, c_char_p, c_char_p, c_size_t, ERR]),
     ('parameters_check', c_bool, [c_void_p, ERR]),
+    ('parameters_check_cells', c_bool, [c_void_p, c_size_t, ERR]),
     ('parameters_save', c_bool, [c_void_p, c_char_p, ERR]),
     ('parameters_text', c_bool, [c_size_t, c_int, c_char_p, c_size_t]),
     ('parameters_presets', c_size_t, [c_char_p, c_size_t]),

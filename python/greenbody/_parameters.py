@@ -122,6 +122,11 @@ class Parameters(MutableMapping[str, str]):
         """Checks each value and their relations: InputError."""
         call('parameters_check', self._handle)
 
+    def check_cells(self, cells: int) -> None:
+        """Checks a plan of several cells that differ by structure.seed only: InputError for
+        lattices and packings from a file, which are the same cell for every seed."""
+        call('parameters_check_cells', self._handle, cells)
+
     def save(self, path: 'os.PathLike[str] | str') -> None:
         """Writes a preset file."""
         call('parameters_save', self._handle, path_of(path))

@@ -13,7 +13,7 @@ import numpy as np
 
 from ._data import Curve
 from ._experiment import Experiment
-from ._library import GreenbodyError
+from ._library import GreenbodyError, InputError
 from ._parameters import Keys, Parameters, Preset, text_of
 from ._states import Path
 
@@ -99,6 +99,7 @@ def _plan(preset: Preset, values: Mapping[str, Iterable[Any]], seeds: List[int],
             if parameters['numerics.threads'] == 'auto':
                 parameters['numerics.threads'] = 1
             parameters.check()
+            parameters.check_cells(len(seeds))
             runs.append(SweepRun(dict(zip(names, combination)), seed, parameters))
     return runs
 
@@ -159,10 +160,13 @@ def sweep(preset: Preset = None, values: Optional[Mapping[str, Iterable[Any]]] =
     out       directory with a run directory for each; None: not recorded
     progress  function of (runs done, runs, run), called in this thread
 
-    Wrong keys or values raise InputError before the first run begins.  A run that is stopped
+    Wrong keys or values raise InputError before the first run begins, and so do several seeds
+    for a lattice or a packing from a file, which are the same cell for every seed.  A run that is stopped
     keeps its points and its error; the others continue.  KeyboardInterrupt cancels all.
     """
     chosen = list(range(1, seeds + 1)) if isinstance(seeds, int) else list(seeds)
+    if len(set(chosen)) < len(chosen):
+        raise InputError(f'seeds = {chosen}: expected each seed once')
     runs = _plan(preset, values or {}, chosen, keys, more)
     work = _Work()
     count = workers or len(os.sched_getaffinity(0))

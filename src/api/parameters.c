@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
+#include "scene/seed.h"
 
 static struct gb_params *params_of(const struct gb_parameters *parameters)
 {
@@ -81,6 +82,12 @@ bool gb_parameters_get(const struct gb_parameters *parameters, const char *key,
 bool gb_parameters_check(const struct gb_parameters *parameters, struct gb_error *err)
 {
     return gb_params_check(params_of(parameters), err);
+}
+
+bool gb_parameters_check_cells(const struct gb_parameters *parameters, size_t cells,
+                               struct gb_error *err)
+{
+    return gb_seed_check_cells(params_of(parameters), cells, err);
 }
 
 bool gb_parameters_save(struct gb_parameters *parameters, const char *path,

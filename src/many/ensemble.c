@@ -10,7 +10,7 @@
 #include "io/rundir.h"
 #include "many/single_run.h"
 #include "run/cost.h"
-#include "scene/imported/imported.h"
+#include "scene/seed.h"
 
 /* Longest time between two calls of callbacks->cancelled. */
 static const double poll_s = 0.2;
@@ -21,8 +21,8 @@ bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replic
     *ensemble = (struct gb_ensemble){.points = points, .replicas = replicas};
     if (points == 0 || replicas == 0 || points > GB_ENSEMBLE_MOST / replicas) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%zu points with %zu replicas: must be between 1 and %d runs", points,
-                            replicas, GB_ENSEMBLE_MOST);
+                            "%zu points with %zu replicas: must be between 1 and %d runs",
+                            points, replicas, GB_ENSEMBLE_MOST);
     }
     ensemble->run = gb_alloc_array(points * replicas, sizeof *ensemble->run, err);
     for (size_t i = 0; ensemble->run != NULL && i < points * replicas; i++) {
@@ -71,6 +71,11 @@ static bool other_error(const struct gb_ensemble_run *run, struct gb_error *err)
 
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
 {
+    for (size_t i = 0; i < ensemble->points; i++) {
+        if (!gb_seed_check_cells(&ensemble->run[i].params, ensemble->replicas, err)) {
+            return false;
+        }
+    }
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         struct gb_ensemble_run *run = &ensemble->run[i];
         if (!g_file_test(run->directory, G_FILE_TEST_EXISTS)) {
@@ -230,12 +235,6 @@ bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
     struct queue queue = {0};
     bool stopping = false;
     bool good = true;
-    if (ensemble->replicas > 1 && gb_imported_given(&ensemble->run[0].params)) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "replicas: must be 1 with structure.from: cells differ by their "
-            "seed, and that of a file has none");
-    }
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         queue.waiting += !ensemble->run[i].ended;
     }

@@ -45,7 +45,7 @@ struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_
 
 /* Marks the runs whose directories say that they are done; those that another process does
  * are left to it.  Errors: GB_ERR_INPUT for a directory with a run of other parameters, or
- * with other files: it is left as it is. */
+ * with other files: it is left as it is; those of gb_seed_check_cells. */
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err);
 
 /* Callbacks of gb_ensemble_work; NULL members are not called. */

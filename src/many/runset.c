@@ -9,6 +9,7 @@
 #include "io/follow.h"
 #include "io/status/status_json.h"
 #include "many/key_difference.h"
+#include "scene/seed.h"
 
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
 {
@@ -39,6 +40,13 @@ static bool read_run(struct gb_runset_run *run, const char *directory,
     return good;
 }
 
+/* Equal seeds, or a seed on which nothing depends, make one cell of equal presets. */
+static bool is_one_cell(const struct gb_params *a, const struct gb_params *b)
+{
+    return a->seed == b->seed ||
+           (!gb_seed_matters(a) && !gb_seed_matters(b) && a->from.sum == b->from.sum);
+}
+
 /* Joins the run to the group of an earlier one, or founds the next. */
 static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
 {
@@ -53,6 +61,12 @@ static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%.200s: same preset and seed as %.200s; a mean takes "
                                 "each seed once",
+                                run->directory, other->directory);
+        }
+        if (is_one_cell(&run->params, &other->params)) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%.200s: same cell as %.200s, whatever the seed; a mean "
+                                "takes each cell once",
                                 run->directory, other->directory);
         }
         run->group = other->group;
@@ -71,7 +85,7 @@ static size_t group_of(const struct gb_runset *set, size_t index, const char *co
             gb_key_difference_find(&run->params, &set->run[i].params, keys) != NULL;
         for (size_t k = 0; k < index && !taken; k++) {
             taken = set->run[k].group == set->run[i].group &&
-                    set->run[k].params.seed == run->params.seed;
+                    is_one_cell(&set->run[k].params, &run->params);
         }
         if (!taken) {
             return set->run[i].group;

@@ -35,7 +35,8 @@ void gb_runset_expand(GPtrArray *list, const char *directory);
 
 /* Reads preset.ini and curve.csv of each directory.  Errors are one line:
  * GB_ERR_INPUT for anything in the files, and for two runs of one group with the same
- * seed: they are one run, and would make its error too small. */
+ * seed, or of a scene in which nothing depends on it: they are one run, and would make its
+ * error too small. */
 bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t count,
                     struct gb_error *err);
 void gb_runset_finish(struct gb_runset *set); /* zeroed is fine */

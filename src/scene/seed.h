@@ -1,9 +1,12 @@
 #ifndef GB_SCENE_SEED_H
 #define GB_SCENE_SEED_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "greenbody/params.h"
+#include "greenbody/status.h"
 
 /* What makes the random numbers of a scene. */
 struct gb_seed {
@@ -15,5 +18,14 @@ static inline struct gb_seed gb_seed_of(const struct gb_params *params)
 {
     return (struct gb_seed){params->generator, params->seed};
 }
+
+/* Does anything in the scene depend on the seed?  It does in dies and in grown structures.
+ * Lattices and packings from a file are the same cell for every seed. */
+bool gb_seed_matters(const struct gb_params *params);
+
+/* Checks a plan of several cells that differ by their seed only.  Copies of one cell would
+ * have errors of zero.  Errors: GB_ERR_INPUT. */
+bool gb_seed_check_cells(const struct gb_params *params, size_t cells,
+                         struct gb_error *err);
 
 #endif

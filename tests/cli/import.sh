@@ -98,10 +98,18 @@ else
 fi
 
 "$greenbody" export first --format csv -o again.csv >stdout 2>stderr
-in_patience "$greenbody" sweep p1-set2-lognormal structure.from=again.csv --vary contact.mu=0.1,0.2 --replicas 2 \
-    --out many >stdout 2>stderr
-is 'replicas of one packing are refused' [ $? -eq 2 ]
-is 'with the reason' grep -q 'replicas: must be 1 with structure.from' stderr
+replicas() { # command and its options
+    in_patience "$greenbody" "$@" structure.from=again.csv --out many >stdout 2>stderr
+    result "$1: replicas of one packing are refused" $(($? != 2))
+    is 'with the reason' grep -q 'again.csv: expected none for [234] cells' stderr
+    is 'and nothing is written' [ ! -e many ]
+}
+replicas sweep p1-set2-lognormal --vary contact.mu=0.1,0.2 --replicas 2
+replicas moduli p1-set2-lognormal --replicas 2
+replicas strength p1-set2-lognormal --replicas 2
+replicas yield p1-set2-lognormal --replicas 2
+replicas card p1-set2-lognormal --replicas 4
+replicas chart p1-set2-lognormal --seeds 3
 
 # --- tilted cells -----------------------------------------------------------------------------
 # Twice the cell of a packing, along x: in a box, and in cells of the same lattice of images

@@ -285,6 +285,17 @@ class Sweeps(Folder):
         with self.assertRaises(greenbody.InputError):
             greenbody.sweep('default', {'contact.mu': [0.1, -1.0]}, 1, SMALL)
 
+    def test_copies_of_a_cell(self):
+        lattice = {'structure.kind': 'fcc', 'particles.count': 108}
+        for seeds in (3, [4, 7]):
+            with self.assertRaisesRegex(greenbody.InputError, 'structure.kind = fcc'):
+                greenbody.sweep('default', {'contact.mu': [0.1]}, seeds, lattice)
+            with self.assertRaisesRegex(greenbody.InputError, 'structure.kind = sc'):
+                greenbody.sweep('default', {'structure.kind': ['grown', 'sc']}, seeds,
+                                {'particles.count': 125})
+        with self.assertRaisesRegex(greenbody.InputError, 'each seed once'):
+            greenbody.sweep('default', {'contact.mu': [0.1]}, [1, 1], SMALL)
+
     def test_pandas(self):
         try:
             import pandas  # noqa: F401  # pylint: disable=unused-import

@@ -11,8 +11,8 @@
 #include "cli/signals.h"
 #include "measure/fit/average.h"
 #include "measure/percolation.h"
-#include "scene/lattice.h"
 #include "scene/model.h"
+#include "scene/seed.h"
 
 /* Density of count particles in the cell of the model. */
 static double density_of(const struct gb_model *model, double count)
@@ -67,10 +67,10 @@ bool gb_pack_percolation(const struct gb_params *params, int cells, struct gb_er
     struct gb_params scene = *params;
     struct gb_model model;
     double *count = g_new(double, (gsize)cells);
-    bool good = gb_lattice_of(params->structure) == NULL ||
+    bool good = gb_seed_matters(params) ||
                 gb_error_set(err, GB_ERR_INPUT,
-                             "structure.kind: a lattice does not grow; --percolation is "
-                             "for structure.kind = grown");
+                             "--percolation: expected structure.kind = grown and no "
+                             "structure.from: other structures do not grow");
     for (int k = 0; k < cells && good; k++) {
         scene.seed = params->seed + (uint64_t)k;
         good = find(&scene, &model, &count[k], err);

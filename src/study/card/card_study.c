@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "measure/fit/average.h"
+#include "scene/seed.h"
 #include "study/card/card_fit.h"
 #include "study/card/card_misfit.h"
 #include "study/card/card_threads.h"
@@ -241,6 +242,9 @@ bool gb_card_study_run(struct gb_card_study *study, const struct gb_params *pres
         .options = &study->options, .preset = preset, .callbacks = callbacks};
     const struct gb_pool_callbacks polled = {.cancelled = callbacks->cancelled,
                                              .data = callbacks->data};
+    if (!gb_seed_check_cells(preset, (size_t)study->options.replicas, err)) {
+        return false;
+    }
     if (study->options.levels == 0 &&
         !gb_card_cell_scout(&study->options, preset, DEFAULT_LEVELS, &polled, err)) {
         return false;

@@ -9,6 +9,7 @@
 
 #include "scene/loading_kind.h"
 #include "scene/model.h"
+#include "scene/seed.h"
 #include "scene/tolerances.h"
 #include "solve/relax/relax.h"
 
@@ -313,7 +314,11 @@ static bool given(const char *const *list)
 
 static bool check_seeds(const struct gb_params *params, int seeds, struct gb_error *err)
 {
-    const uint64_t most = UINT64_MAX - (uint64_t)(seeds > 0 ? seeds - 1 : 0);
+    const size_t cells = seeds > 0 ? (size_t)seeds : 1;
+    const uint64_t most = UINT64_MAX - (cells - 1);
+    if (!gb_seed_check_cells(params, cells, err)) {
+        return false;
+    }
     return params->seed <= most ||
            gb_error_set(err, GB_ERR_INPUT,
                         "structure.seed = %" PRIu64 ": accepted up to %" PRIu64

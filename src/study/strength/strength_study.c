@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/table.h"
+#include "scene/seed.h"
 #include "study/compact/compact.h"
 #include "study/compact/study_text.h"
 #include "study/strength/strength_cell.h"
@@ -194,6 +195,7 @@ bool gb_strength_study_run(struct gb_strength_study *study,
         .result = g_array_new(FALSE, FALSE, sizeof(struct gb_strength_result)),
         .curves = g_string_new(NULL)};
     if (!gb_strength_options_check(options, err) ||
+        !gb_seed_check_cells(preset, (size_t)options->replicas, err) ||
         !gb_compact_params(&params, preset, err) ||
         !gb_cells_init(&cells, directory, err)) {
         gb_cells_finish(&cells);

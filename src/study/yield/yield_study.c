@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/table.h"
+#include "scene/seed.h"
 #include "study/compact/compact.h"
 #include "study/yield/yield_cell.h"
 
@@ -207,6 +208,7 @@ bool gb_yield_study_run(struct gb_yield_study *study, const struct gb_params *pr
         .point = g_array_new(FALSE, FALSE, sizeof(struct gb_yield_point)),
     };
     if (!gb_yield_options_check(options, err) ||
+        !gb_seed_check_cells(preset, (size_t)options->replicas, err) ||
         !gb_compact_params(&params, preset, err) ||
         !gb_cells_init(&cells, directory, err)) {
         gb_cells_finish(&cells);
