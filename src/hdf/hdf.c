@@ -24,13 +24,31 @@ static pthread_mutex_t one_thread;
 static pthread_once_t prepared = PTHREAD_ONCE_INIT;
 
 /* One thread may have several files. */
-static void prepare(void)
+static void make_lock(void)
 {
     pthread_mutexattr_t kind;
     pthread_mutexattr_init(&kind);
     pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE);
     pthread_mutex_init(&one_thread, &kind);
     pthread_mutexattr_destroy(&kind);
+}
+
+/* Around fork: no other thread is inside HDF5, whose state the child inherits.  The mutex of
+ * the child has an owner that does not exist there. */
+static void before_fork(void)
+{
+    pthread_mutex_lock(&one_thread);
+}
+
+static void in_parent(void)
+{
+    pthread_mutex_unlock(&one_thread);
+}
+
+static void prepare(void)
+{
+    make_lock();
+    (void)pthread_atfork(before_fork, in_parent, make_lock);
 }
 
 static struct gb_hdf *wrap(const char *path, struct gb_error *err)

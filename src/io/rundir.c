@@ -55,6 +55,7 @@ static bool hold(struct gb_rundir *dir)
     if (dir->lock < 0) {
         return false;
     }
+    dir->process = getpid();
     dir->held = g_strdup_printf("/proc/self/fd/%d", dir->lock);
     if (stat(dir->held, &info) != 0) { /* no such file system here */
         g_free(dir->held);
@@ -303,6 +304,9 @@ bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *e
 void gb_rundir_finish(struct gb_rundir *dir)
 {
     if (dir->lock >= 0) {
+        if (dir->process == getpid()) { /* children that have inherited it keep no lock */
+            (void)flock(dir->lock, LOCK_UN);
+        }
         close(dir->lock);
     }
     g_free(dir->made);
@@ -318,4 +322,25 @@ void gb_rundir_remove(struct gb_rundir *dir)
         remove_made(dir->path, dir->made);
     }
     gb_rundir_finish(dir);
+}
+
+/* Characters of a value in the name of a directory, and those before a checksum. */
+enum { VALUE_MAX = 60, VALUE_KEPT = 40 };
+
+void gb_rundir_name_value(GString *name, const char *value, bool free_text)
+{
+    const gsize before = name->len;
+    for (const char *c = value; *c != '\0'; c++) {
+        if (g_ascii_isalnum(*c) || *c == '.' || *c == '-' || *c == '+') {
+            g_string_append_c(name, *c);
+        } else if (free_text) { /* not the blanks in "10 nm" */
+            g_string_append_printf(name, "~%02X", (unsigned)(unsigned char)*c);
+        }
+    }
+    if (name->len - before > VALUE_MAX) {
+        char *sum = g_compute_checksum_for_string(G_CHECKSUM_SHA256, value, -1);
+        g_string_truncate(name, before + VALUE_KEPT);
+        g_string_append_printf(name, "~~%.16s", sum);
+        g_free(sum);
+    }
 }

@@ -2,6 +2,9 @@
 #define GB_IO_RUNDIR_H
 
 #include <stdbool.h>
+#include <sys/types.h>
+
+#include <glib.h>
 
 #include "greenbody/status.h"
 
@@ -10,14 +13,16 @@ struct gb_rundir {
     char *path;
     char *made; /* topmost directory that was created for it, NULL when path existed */
     int lock;   /* open directory, locked as long as the run is written */
+    pid_t
+        process; /* that has locked it; a child of it shares the lock and leaves it alone */
     char *held; /* path through the open lock (/proc/self/fd): valid even after the
                    directory was renamed.  Systems without it: path */
 };
 
 enum gb_rundir_mode {
-    GB_RUNDIR_KEEP,   /* an existing run is an error */
+    GB_RUNDIR_KEEP,    /* an existing run is an error */
     GB_RUNDIR_REPLACE, /* an existing run is removed, unless it is still being written */
-    GB_RUNDIR_MISSING  /* the same, but one that is done is an error, seen under the lock */
+    GB_RUNDIR_MISSING /* the same, but one that is done is an error, seen under the lock */
 };
 
 /* Could a run begin at path?  Changes nothing: a wrong --out is reported before minutes of
@@ -54,5 +59,11 @@ void gb_rundir_finish(struct gb_rundir *dir);
 /* Removes the files of the run and the directories that were made for it, then
  * finishes. */
 void gb_rundir_remove(struct gb_rundir *dir);
+
+/* Adds a value of a key to the name of a directory, so that two values have two names.  ASCII
+ * letters, digits, '.', '+' and '-' stay.  Of free text every other byte becomes "~" and two
+ * hexadecimal digits, of a number with its unit it is left out.  More than 60 characters
+ * become the first 40, "~~" and a checksum. */
+void gb_rundir_name_value(GString *name, const char *value, bool free_text);
 
 #endif

@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
+#include <unistd.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -42,6 +43,7 @@ struct gb_team {
     struct member *member;
     int size; /* threads that exist or shall */
     bool started;
+    pid_t process; /* that has the threads; a child of it has none */
     struct gb_team_pace pace;
     double began_s; /* of the measured work */
     /* The work, in one cache line: written before its shares, read after an item is taken. */
@@ -262,6 +264,7 @@ bool gb_team_create(struct gb_team **out, int threads, struct gb_error *err)
 static void start(struct gb_team *team)
 {
     team->started = true;
+    team->process = getpid();
     for (int m = 1; m < team->size; m++) {
         struct member *member = &team->member[m];
         struct gb_error refused;
@@ -281,12 +284,13 @@ void gb_team_destroy(struct gb_team *team)
     if (!team) {
         return;
     }
+    const bool inherited = team->started && team->process != getpid();
     atomic_store(&team->over, true);
-    for (int m = 1; team->started && m < team->size; m++) {
+    for (int m = 1; team->started && !inherited && m < team->size; m++) {
         bell_ring(&team->member[m].bell);
         pthread_join(team->member[m].thread, NULL);
     }
-    for (int m = 0; m < team->size; m++) {
+    for (int m = 0; !inherited && m < team->size; m++) { /* the parent may hold a bell */
         bell_finish(&team->member[m].bell);
     }
     gb_alloc_free(team->member);

@@ -26,6 +26,8 @@ typedef void gb_team_range(void *data, int64_t begin, int64_t end);
  * Errors: GB_ERR_MEMORY. */
 bool gb_team_create(struct gb_team **out, int threads, struct gb_error *err);
 
+/* In a process that inherited the team by fork, which has none of its threads, only frees
+ * the memory. */
 void gb_team_destroy(struct gb_team *team);
 
 /* Threads at most; 1 without a team. */

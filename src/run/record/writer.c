@@ -1,6 +1,7 @@
 #include "run/record/writer.h"
 
 #include <pthread.h>
+#include <unistd.h>
 
 #include <glib.h>
 
@@ -15,6 +16,7 @@ struct gb_writer {
     const struct gb_params *params;
     const struct gb_model *model;
     pthread_t thread;
+    pid_t process; /* that has the thread; a child of it has none */
 
     /* guarded by the mutex */
     pthread_mutex_t mutex;
@@ -102,6 +104,7 @@ bool gb_writer_create(struct gb_writer **out, const struct gb_store *store,
     writer->store = store;
     writer->params = params;
     writer->model = model;
+    writer->process = getpid();
     pthread_mutex_init(&writer->mutex, NULL);
     pthread_cond_init(&writer->change, NULL);
     if (!gb_thread_start(&writer->thread, work, writer, "the writer thread", err)) {
@@ -119,13 +122,16 @@ void gb_writer_destroy(struct gb_writer *writer)
     if (!writer) {
         return;
     }
-    pthread_mutex_lock(&writer->mutex);
-    writer->quit = true;
-    pthread_cond_broadcast(&writer->change);
-    pthread_mutex_unlock(&writer->mutex);
-    pthread_join(writer->thread, NULL);
-    pthread_cond_destroy(&writer->change);
-    pthread_mutex_destroy(&writer->mutex);
+    if (writer->process == getpid()) {
+        pthread_mutex_lock(&writer->mutex);
+        writer->quit = true;
+        pthread_cond_broadcast(&writer->change);
+        pthread_mutex_unlock(&writer->mutex);
+        pthread_join(writer->thread, NULL);
+        pthread_cond_destroy(&writer->change);
+        pthread_mutex_destroy(&writer->mutex);
+    }
+    g_free(writer->status);
     gb_record_finish(&writer->record);
     gb_alloc_free(writer);
 }
