@@ -5,7 +5,11 @@
  * docs/library.md shows it by examples.
  *
  * It keeps no state of its own between objects, never prints, exits or installs a signal
- * handler; a call that fails returns a value and fills a struct gb_error. */
+ * handler; a call that fails returns a value and fills a struct gb_error.
+ *
+ * Every function checks its arguments.  A missing object, text or result (NULL) is
+ * GB_ERR_INPUT.  A function without an error returns NULL, 0 or false then, and one without
+ * a result does nothing. */
 #include "greenbody/array.h"
 #include "greenbody/contact_law.h"
 #include "greenbody/outcome.h"
@@ -24,8 +28,8 @@ extern "C" {
 const char *gb_library_version(void);
 
 /* Member `index` of struct gb_point, for other languages: its name ("p_pa"), offset in
- * bytes, numbers in it, and type 'd' (double), 'q' (int64_t) or 'i' (int).  False behind the
- * last. */
+ * bytes, numbers in it, and type 'd' (double), 'q' (int64_t) or 'i' (int).  False after the
+ * last.  A result that is not needed may be NULL. */
 bool gb_library_point_member(size_t index, const char **name, size_t *offset,
                              size_t *count, char *type);
 

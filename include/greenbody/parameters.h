@@ -35,10 +35,16 @@ bool gb_parameters_set(struct gb_parameters *parameters, const char *assignment,
 /* The value as a preset would have it: "9.7 nm", "0.008 d", "auto".
  *
  * size   of the buffer; GB_PARAMETERS_VALUE is enough for every value
- * Errors: GB_ERR_INPUT for an unknown key. */
+ * Errors: GB_ERR_INPUT for an unknown key, or a buffer that is too small. */
 enum { GB_PARAMETERS_VALUE = 8192 };
 bool gb_parameters_get(const struct gb_parameters *parameters, const char *key,
                        char *buffer, size_t size, struct gb_error *err);
+
+/* The value as the names of a sweep's directories have it, "9.7nm": letters, digits, '.', '+'
+ * and '-'; in words every other byte as "~" and two hexadecimal digits.  Two values have two
+ * such texts.  Size and errors: as of gb_parameters_get. */
+bool gb_parameters_label(const struct gb_parameters *parameters, const char *key,
+                         char *buffer, size_t size, struct gb_error *err);
 
 /* Checks each value and their relations, as creating a simulation does.  Errors:
  * GB_ERR_INPUT naming the keys. */

@@ -80,7 +80,7 @@ struct gb_point {
 
 /* "load", "relax", "hold", "unload:100MPa", "unload", "in-die", "eject", "ejected", "leg:2":
  * the branch column of curve.csv.  Writes at most size bytes with the end; returns
- * buffer. */
+ * buffer.  "" for a branch that no run has, NULL without a buffer. */
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size);
 
 #ifdef __cplusplus

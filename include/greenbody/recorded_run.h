@@ -24,7 +24,7 @@ void gb_recorded_run_destroy(struct gb_recorded_run *run); /* NULL is fine */
 const char *gb_recorded_run_state(const struct gb_recorded_run *run);
 const char *gb_recorded_run_reason(const struct gb_recorded_run *run);
 
-/* Rows of curve.csv, with its digits; a row lives as long as the run. */
+/* Rows of curve.csv, with its digits; a row lives as long as the run.  NULL after the last. */
 size_t gb_recorded_run_points(const struct gb_recorded_run *run);
 const struct gb_point *gb_recorded_run_point(const struct gb_recorded_run *run,
                                              size_t index);

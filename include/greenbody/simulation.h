@@ -49,8 +49,12 @@ bool gb_simulation_load(struct gb_simulation **out,
  * points and arrays stay, and no advance follows. */
 void gb_simulation_leave(struct gb_simulation *simulation);
 
-/* A recorded run that is left before its end can be resumed from its directory. NULL is
- * fine. */
+/* A recorded run that is left before its end can be resumed from its directory.  NULL is
+ * fine.
+ *
+ * A child that inherits a simulation by fork has neither its threads nor its files.  There
+ * points and parameters may be read; this function frees the memory and changes no file, and
+ * the others fail (GB_ERR_INPUT). */
 void gb_simulation_destroy(struct gb_simulation *simulation);
 
 /* Records the run in a directory, as `greenbody run --out` does; before the first advance.
@@ -80,7 +84,9 @@ void gb_simulation_on_progress(struct gb_simulation *simulation,
                                             double share),
                                void *data, double interval);
 
-/* Advances by at most so many recorded points; INT64_MAX: to the end.
+/* Advances by at most so many recorded points; INT64_MAX: to the end.  Negative points, a
+ * second advance at the same time and a simulation of another process are
+ * GB_RUN_OUTCOME_FAILED with GB_ERR_INPUT and leave the simulation as it is.
  *
  * GB_RUN_OUTCOME_NONE: the points are recorded and the run has not ended.  After
  * GB_RUN_OUTCOME_CANCELLED, too, it may be advanced further, with the same bits.  err says why
@@ -93,8 +99,8 @@ enum gb_run_outcome gb_simulation_advance(struct gb_simulation *simulation,
  * reason   one line, which must outlive the simulation; NULL: "cancelled" */
 void gb_simulation_cancel(struct gb_simulation *simulation, const char *reason);
 
-/* Recorded points so far, and point 0 <= index < points; it lives as long as the
- * simulation.  Points of a run that is resumed are those of its curve.csv. */
+/* Recorded points so far, and point 0 <= index < points, which lives as long as the
+ * simulation; NULL for another index.  Points of a run that is resumed are those of its curve.csv. */
 size_t gb_simulation_points(const struct gb_simulation *simulation);
 const struct gb_point *gb_simulation_point(const struct gb_simulation *simulation,
                                            size_t index);

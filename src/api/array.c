@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "api/arguments.h"
 #include "api/array_private.h"
 #include "base/alloc.h"
 #include "io/state/state_stress.h"
@@ -317,8 +318,7 @@ static bool find_stress(struct gb_array_source *packing, struct rows *rows,
 static const struct array_row table[] = {
     {"position", GB_ARRAY_DOUBLE, 3, LENGTH, find_position, "particles x 3, d"},
     {"diameter", GB_ARRAY_DOUBLE, 1, LENGTH, find_diameter, "particles, d"},
-    {"force", GB_ARRAY_DOUBLE, 3, FORCE, find_force,
-     "particles x 3, E d^2: resultant"},
+    {"force", GB_ARRAY_DOUBLE, 3, FORCE, find_force, "particles x 3, E d^2: resultant"},
     {"torque", GB_ARRAY_DOUBLE, 3, MOMENT, find_torque,
      "particles x 3, E d^3: resultant"},
     {"velocity", GB_ARRAY_DOUBLE, 3, SPEED, find_velocity,
@@ -427,6 +427,10 @@ bool gb_array_find(struct gb_array_source *packing, const char *name,
                                     [GB_ARRAY_INT32] = sizeof(int32_t),
                                     [GB_ARRAY_UINT8] = sizeof(uint8_t)};
     struct rows rows = {0};
+    if (!gb_arguments_given(name, "name", err) ||
+        !gb_arguments_given(array, "array", err)) {
+        return false;
+    }
     const struct array_row *row = find_row(name, err);
     if (!row || !row->find(packing, &rows, err)) {
         return false;

@@ -14,7 +14,7 @@ struct gb_array_source {
     struct gb_experiment *experiment; /* under way; NULL: read from a file */
     struct gb_state
         *state; /* owned; under way a list of the contacts, when first needed */
-    double *diameter, *stress; /* owned; computed when first needed */
+    double *diameter, *stress;         /* owned; computed when first needed */
     double *angular[GB_ARRAY_ANGULAR]; /* the same, of unequal particles */
 };
 

@@ -1,11 +1,13 @@
 #include "greenbody/contact_law.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include <glib.h>
 
+#include "api/arguments.h"
 #include "api/parameters_private.h"
 #include "study/law/law_rows.h"
 
@@ -30,18 +32,21 @@ const char *gb_contact_law_doc(size_t index)
 
 const char *gb_contact_law_columns(const char *law)
 {
-    const struct gb_law_table_law *found = gb_law_table_find(law);
+    const struct gb_law_table_law *found = law ? gb_law_table_find(law) : NULL;
     return found ? found->header : NULL;
 }
 
 const char *gb_contact_law_variable(const char *law)
 {
-    const struct gb_law_table_law *found = gb_law_table_find(law);
+    const struct gb_law_table_law *found = law ? gb_law_table_find(law) : NULL;
     return found ? found->variable : NULL;
 }
 
 size_t gb_contact_law_rows(const struct gb_contact_law_request *request)
 {
+    if (!request || request->size < sizeof *request || !request->law) {
+        return 0;
+    }
     const struct gb_law_table_law *law = gb_law_table_find(request->law);
     if (!law) {
         return 0;
@@ -49,8 +54,13 @@ size_t gb_contact_law_rows(const struct gb_contact_law_request *request)
     if (!law->variable) {
         return 1;
     }
-    return request->history == GB_CONTACT_LAW_PATH ? gb_law_rows_of_path(request->count)
-                                                   : request->count;
+    if (request->history == GB_CONTACT_LAW_POINTS) {
+        return request->count;
+    }
+    /* no memory holds more; the product of rows and columns stays a size_t */
+    return request->history == GB_CONTACT_LAW_PATH && request->count < SIZE_MAX >> 16
+               ? gb_law_rows_of_path(request->count)
+               : 0;
 }
 
 /* --- the request as the options of `greenbody law` --------------------------------- */
@@ -65,9 +75,8 @@ static bool take_row(const double *value, int columns, void *data, struct gb_err
 {
     struct rows *rows = data;
     const size_t count = (size_t)columns;
-    if (rows->room - rows->filled < count) {
-        return gb_error_set(err, GB_ERR_INPUT, "room = %zu: must hold rows x columns",
-                            rows->room);
+    if (!gb_arguments_fit(rows->room, rows->filled + count, "room", err)) {
+        return false;
     }
     memcpy(rows->out + rows->filled, value, count * sizeof *value);
     rows->filled += count;
@@ -75,12 +84,12 @@ static bool take_row(const double *value, int columns, void *data, struct gb_err
 }
 
 static char **points_of(const struct gb_contact_law_request *request,
-                        const char *variable)
+                        const char *variable, size_t first, size_t count)
 {
-    char **at = g_new0(char *, request->count + 1);
-    for (size_t i = 0; i < request->count; i++) {
+    char **at = g_new0(char *, count + 1);
+    for (size_t i = 0; i < count; i++) {
         char x[G_ASCII_DTOSTR_BUF_SIZE], h_min[G_ASCII_DTOSTR_BUF_SIZE];
-        g_ascii_dtostr(x, sizeof x, request->x[i]);
+        g_ascii_dtostr(x, sizeof x, request->x[first + i]);
         g_ascii_dtostr(h_min, sizeof h_min, request->h_min);
         at[i] = isnan(request->h_min)
                     ? g_strdup_printf("%s=%s", variable, x)
@@ -124,30 +133,80 @@ static bool find(const struct gb_contact_law_request *request,
                         needed ? "sc, fcc, bcc or diamond" : "none");
 }
 
+/* Is everything there that the request needs? */
+static bool check(const struct gb_contact_law_request *request,
+                  const struct gb_law_table_law *law,
+                  const struct gb_parameters *parameters, const double *out, size_t room,
+                  struct gb_error *err)
+{
+    const size_t rows = gb_contact_law_rows(request);
+    const size_t columns = (size_t)gb_law_table_columns(law);
+    if (!gb_arguments_given(parameters, "parameters", err) ||
+        !gb_arguments_given(out, "out", err)) {
+        return false;
+    }
+    if (law->variable && request->history != GB_CONTACT_LAW_POINTS &&
+        request->history != GB_CONTACT_LAW_PATH) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "history = %d: expected GB_CONTACT_LAW_POINTS or _PATH",
+                            request->history);
+    }
+    if (law->variable && request->count > 0 &&
+        !gb_arguments_given(request->x, "x", err)) {
+        return false;
+    }
+    if (request->count > SIZE_MAX >> 16) {
+        return gb_error_set(err, GB_ERR_INPUT, "count = %zu: expected at most %zu",
+                            request->count, SIZE_MAX >> 16);
+    }
+    return gb_arguments_fit(room, rows * columns, "room", err);
+}
+
+/* The points, some at a time, so that no text of all is needed. */
+static bool compute_points(struct gb_law_rows_request *options,
+                           const struct gb_contact_law_request *request,
+                           const struct gb_params *params, struct rows *rows,
+                           struct gb_error *err)
+{
+    enum { AT_A_TIME = 1024 };
+    bool good = true;
+    for (size_t i = 0; good && i < request->count; i += AT_A_TIME) {
+        options->at = points_of(request, options->law->variable, i,
+                                MIN((size_t)AT_A_TIME, request->count - i));
+        good = gb_law_rows_compute(options, params, take_row, rows, err);
+        g_strfreev(options->at);
+    }
+    return good;
+}
+
 bool gb_contact_law_compute(const struct gb_contact_law_request *request,
                             const struct gb_parameters *parameters, double *out,
                             size_t room, struct gb_error *err)
 {
     struct gb_law_rows_request options = {0};
     struct rows rows = {.out = out, .room = room};
+    if (!gb_arguments_given(request, "request", err)) {
+        return false;
+    }
     if (request->size < sizeof *request) {
         return gb_error_set(
             err, GB_ERR_INPUT,
             "size = %zu: must be sizeof(struct gb_contact_law_request), %zu",
             request->size, sizeof *request);
     }
-    if (!find(request, &options, err)) {
+    if (!gb_arguments_given(request->law, "law", err) || !find(request, &options, err) ||
+        !check(request, options.law, parameters, out, room, err)) {
         return false;
     }
+    const struct gb_params *params = gb_preset_params(parameters->preset);
     const char *variable = options.law->variable;
+    if (variable && request->count > 0 && request->history == GB_CONTACT_LAW_POINTS) {
+        return compute_points(&options, request, params, &rows, err);
+    }
     if (variable && request->history == GB_CONTACT_LAW_PATH) {
         options.path = path_of(request, variable);
-    } else if (variable && request->count > 0) {
-        options.at = points_of(request, variable);
     }
-    const bool good = gb_law_rows_compute(&options, gb_preset_params(parameters->preset),
-                                          take_row, &rows, err);
-    g_strfreev(options.at);
+    const bool good = gb_law_rows_compute(&options, params, take_row, &rows, err);
     g_free(options.path);
     return good;
 }

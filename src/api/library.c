@@ -75,9 +75,18 @@ bool gb_library_point_member(size_t index, const char **name, size_t *offset,
     if (index >= G_N_ELEMENTS(members)) {
         return false;
     }
-    *name = members[index].name;
-    *offset = members[index].offset;
-    *count = members[index].count;
-    *type = members[index].type;
+    const struct member *member = &members[index];
+    if (name) {
+        *name = member->name;
+    }
+    if (offset) {
+        *offset = member->offset;
+    }
+    if (count) {
+        *count = member->count;
+    }
+    if (type) {
+        *type = member->type;
+    }
     return true;
 }

@@ -2,11 +2,13 @@
 
 #include <glib.h>
 
+#include "api/arguments.h"
 #include "api/parameters_private.h"
 #include "base/alloc.h"
 #include "base/units.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
+#include "io/rundir.h"
 #include "scene/seed.h"
 
 static struct gb_params *params_of(const struct gb_parameters *parameters)
@@ -35,6 +37,9 @@ bool gb_parameters_create(struct gb_parameters **out, const char *preset,
                           struct gb_error *err)
 {
     struct gb_preset *read = NULL;
+    if (!gb_arguments_given(out, "out", err)) {
+        return false;
+    }
     (void)(preset ? gb_preset_load(&read, preset, err) : gb_preset_create(&read, err));
     return take(out, read, err);
 }
@@ -52,7 +57,9 @@ bool gb_parameters_wrap(struct gb_parameters **out, const struct gb_params *para
 bool gb_parameters_copy(struct gb_parameters **out,
                         const struct gb_parameters *parameters, struct gb_error *err)
 {
-    return gb_parameters_wrap(out, params_of(parameters), err);
+    return gb_arguments_given(out, "out", err) &&
+           gb_arguments_given(parameters, "parameters", err) &&
+           gb_parameters_wrap(out, params_of(parameters), err);
 }
 
 void gb_parameters_destroy(struct gb_parameters *parameters)
@@ -66,34 +73,69 @@ void gb_parameters_destroy(struct gb_parameters *parameters)
 bool gb_parameters_set(struct gb_parameters *parameters, const char *assignment,
                        struct gb_error *err)
 {
-    return gb_material_assign(params_of(parameters), assignment, err);
+    return gb_arguments_given(parameters, "parameters", err) &&
+           gb_arguments_given(assignment, "assignment", err) &&
+           gb_material_assign(params_of(parameters), assignment, err);
 }
 
 bool gb_parameters_get(const struct gb_parameters *parameters, const char *key,
                        char *buffer, size_t size, struct gb_error *err)
 {
-    const struct gb_field *field = gb_params_find_name(key, err);
-    if (field) {
-        gb_params_format(params_of(parameters), field, buffer, size);
+    char value[GB_PARAMETERS_VALUE];
+    if (!gb_arguments_given(parameters, "parameters", err) ||
+        !gb_arguments_given(key, "key", err) ||
+        !gb_arguments_given(buffer, "buffer", err)) {
+        return false;
     }
-    return field != NULL;
+    const struct gb_field *field = gb_params_find_name(key, err);
+    if (!field) {
+        return false;
+    }
+    gb_params_format(params_of(parameters), field, value, sizeof value);
+    return gb_arguments_fit(size, strlen(value) + 1, "size", err) &&
+           g_strlcpy(buffer, value, size) < size;
+}
+
+bool gb_parameters_label(const struct gb_parameters *parameters, const char *key,
+                         char *buffer, size_t size, struct gb_error *err)
+{
+    char value[GB_PARAMETERS_VALUE];
+    if (!gb_arguments_given(buffer, "buffer", err) ||
+        !gb_parameters_get(parameters, key, value, sizeof value, err)) {
+        return false;
+    }
+    const struct gb_field *field = gb_params_find_name(key, err);
+    const bool word = field->type == GB_FIELD_TEXT || field->type == GB_FIELD_PRESSURES ||
+                      field->type == GB_FIELD_SIZES || field->type == GB_FIELD_PACKING;
+    GString *label = g_string_new(NULL);
+    gb_rundir_name_value(label, value, word && !field->choices);
+    const bool good = gb_arguments_fit(size, label->len + 1, "size", err);
+    if (good) {
+        memcpy(buffer, label->str, label->len + 1);
+    }
+    g_string_free(label, TRUE);
+    return good;
 }
 
 bool gb_parameters_check(const struct gb_parameters *parameters, struct gb_error *err)
 {
-    return gb_params_check(params_of(parameters), err);
+    return gb_arguments_given(parameters, "parameters", err) &&
+           gb_params_check(params_of(parameters), err);
 }
 
 bool gb_parameters_check_cells(const struct gb_parameters *parameters, size_t cells,
                                struct gb_error *err)
 {
-    return gb_seed_check_cells(params_of(parameters), cells, err);
+    return gb_arguments_given(parameters, "parameters", err) &&
+           gb_seed_check_cells(params_of(parameters), cells, err);
 }
 
 bool gb_parameters_save(struct gb_parameters *parameters, const char *path,
                         struct gb_error *err)
 {
-    return gb_preset_save(parameters->preset, path, GB_PRESET_CHANGED_KEYS, err);
+    return gb_arguments_given(parameters, "parameters", err) &&
+           gb_arguments_given(path, "path", err) &&
+           gb_preset_save(parameters->preset, path, GB_PRESET_CHANGED_KEYS, err);
 }
 
 /* --- the table of keys ------------------------------------------------------------ */
@@ -134,10 +176,11 @@ bool gb_parameters_text(size_t index, enum gb_parameters_text what, char *buffer
                         size_t size)
 {
     size_t count = 0;
-    const struct gb_field *field = gb_params_fields(&count) + index;
-    if (index >= count || size == 0) {
+    const struct gb_field *fields = gb_params_fields(&count);
+    if (index >= count || !buffer || size == 0) {
         return false;
     }
+    const struct gb_field *field = &fields[index];
     switch (what) {
     case GB_PARAMETERS_KEY:
         g_snprintf(buffer, size, "%s.%s", field->group, field->key);
@@ -172,7 +215,7 @@ size_t gb_parameters_presets(char *buffer, size_t size)
     char **names = gb_preset_folders_list();
     char *lines = g_strjoinv("\n", names);
     const size_t needed = strlen(lines) + 1;
-    if (size > 0) {
+    if (buffer && size > 0) {
         g_strlcpy(buffer, lines, size);
     }
     g_free(lines);

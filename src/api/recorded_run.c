@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "api/arguments.h"
 #include "api/parameters_private.h"
 #include "base/alloc.h"
 #include "hdf/hdf_record.h"
@@ -86,6 +87,10 @@ bool gb_recorded_run_open(struct gb_recorded_run **out, const char *directory,
                           struct gb_error *err)
 {
     struct gb_follow_engine engine;
+    if (!gb_arguments_given(out, "out", err) ||
+        !gb_arguments_given(directory, "directory", err)) {
+        return false;
+    }
     struct gb_recorded_run *run = gb_alloc_array(1, sizeof *run, err);
     if (!run) {
         return false;
@@ -116,32 +121,34 @@ void gb_recorded_run_destroy(struct gb_recorded_run *run)
 
 const char *gb_recorded_run_state(const struct gb_recorded_run *run)
 {
-    return gb_status_json_word(run->snapshot.state);
+    return run ? gb_status_json_word(run->snapshot.state) : NULL;
 }
 
 const char *gb_recorded_run_reason(const struct gb_recorded_run *run)
 {
-    return run->snapshot.error.text;
+    return run ? run->snapshot.error.text : NULL;
 }
 
 size_t gb_recorded_run_points(const struct gb_recorded_run *run)
 {
-    return gb_curve_count(run->curve);
+    return run ? gb_curve_count(run->curve) : 0;
 }
 
 const struct gb_point *gb_recorded_run_point(const struct gb_recorded_run *run,
                                              size_t index)
 {
-    return gb_curve_at(run->curve, index);
+    return index < gb_recorded_run_points(run) ? gb_curve_at(run->curve, index) : NULL;
 }
 
 bool gb_recorded_run_parameters(const struct gb_recorded_run *run,
                                 struct gb_parameters **out, struct gb_error *err)
 {
-    return gb_parameters_wrap(out, &run->params, err);
+    return gb_arguments_given(run, "run", err) && gb_arguments_given(out, "out", err) &&
+           gb_parameters_wrap(out, &run->params, err);
 }
 
 const char *gb_recorded_run_saved(const struct gb_recorded_run *run, size_t index)
 {
-    return index < run->packings->len ? g_ptr_array_index(run->packings, index) : NULL;
+    return run && index < run->packings->len ? g_ptr_array_index(run->packings, index)
+                                             : NULL;
 }

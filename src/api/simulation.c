@@ -1,7 +1,9 @@
 #include <string.h>
+#include <unistd.h>
 
 #include <glib.h>
 
+#include "api/arguments.h"
 #include "api/parameters_private.h"
 #include "api/simulation_private.h"
 #include "base/alloc.h"
@@ -96,6 +98,8 @@ static struct gb_simulation *allocate(struct gb_error *err)
                                             .data = simulation};
     gb_run_loop_init(&simulation->loop, &hooks);
     atomic_init(&simulation->reason, NULL);
+    atomic_init(&simulation->advancing, false);
+    simulation->process = getpid();
     if (!gb_curve_create(&simulation->curve, err)) {
         gb_simulation_destroy(simulation);
         return NULL;
@@ -128,7 +132,9 @@ bool gb_simulation_create_from(struct gb_simulation **out, const struct gb_param
 bool gb_simulation_create(struct gb_simulation **out,
                           const struct gb_parameters *parameters, struct gb_error *err)
 {
-    return gb_simulation_create_from(out, gb_preset_params(parameters->preset), err);
+    return gb_arguments_given(out, "out", err) &&
+           gb_arguments_given(parameters, "parameters", err) &&
+           gb_simulation_create_from(out, gb_preset_params(parameters->preset), err);
 }
 
 bool gb_simulation_create_fork(struct gb_simulation **out, const struct gb_params *params,
@@ -196,6 +202,10 @@ bool gb_simulation_open(struct gb_simulation *simulation, const char *directory,
 static bool create_resumed(struct gb_simulation **out, const char *directory,
                            enum gb_run_recorder_from from, struct gb_error *err)
 {
+    if (!gb_arguments_given(out, "out", err) ||
+        !gb_arguments_given(directory, "directory", err)) {
+        return false;
+    }
     struct gb_simulation *simulation = allocate(err);
     if (!simulation || !gb_simulation_open(simulation, directory, from, err)) {
         gb_simulation_destroy(simulation);
@@ -225,9 +235,43 @@ void gb_simulation_release(struct gb_simulation *simulation)
     gb_run_loop_finish(&simulation->loop);
 }
 
+bool gb_simulation_usable(const struct gb_simulation *simulation, bool within,
+                          struct gb_error *err)
+{
+    if (!gb_arguments_given(simulation, "simulation", err)) {
+        return false;
+    }
+    if (simulation->process != getpid()) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "the simulation belongs to process %ld, which has its threads "
+            "and files; expected one of this process",
+            (long)simulation->process);
+    }
+    return within || !atomic_load(&simulation->advancing) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "an advance is under way; expected this call after it");
+}
+
+/* What fork has left of a simulation: threads and locks are the parent's. */
+static void destroy_inherited(struct gb_simulation *simulation)
+{
+    if (atomic_load(&simulation->advancing)) {
+        return; /* its memory was in the middle of a change */
+    }
+    gb_simulation_release(simulation);
+    gb_curve_destroy(simulation->curve);
+    g_free(simulation->directory);
+    gb_alloc_free(simulation);
+}
+
 void gb_simulation_destroy(struct gb_simulation *simulation)
 {
     if (!simulation) {
+        return;
+    }
+    if (simulation->process != getpid()) {
+        destroy_inherited(simulation);
         return;
     }
     simulation->on_point = NULL;
@@ -254,6 +298,10 @@ bool gb_simulation_record(struct gb_simulation *simulation, const char *director
                           bool replace, struct gb_error *err)
 {
     const enum gb_rundir_mode mode = replace ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;
+    if (!gb_simulation_usable(simulation, false, err) ||
+        !gb_arguments_given(directory, "directory", err)) {
+        return false;
+    }
     if (simulation->loop.experiment || simulation->origin != GB_SIMULATION_NEW) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "%s: a run is recorded from its beginning, before the first "
@@ -276,8 +324,10 @@ void gb_simulation_on_point(struct gb_simulation *simulation,
                                          const struct gb_point *point),
                             void *data)
 {
-    simulation->on_point = call;
-    simulation->point_data = data;
+    if (simulation) {
+        simulation->on_point = call;
+        simulation->point_data = data;
+    }
 }
 
 void gb_simulation_on_event(struct gb_simulation *simulation,
@@ -285,8 +335,10 @@ void gb_simulation_on_event(struct gb_simulation *simulation,
                                          int64_t step, const char *text),
                             void *data)
 {
-    simulation->on_event = call;
-    simulation->event_data = data;
+    if (simulation) {
+        simulation->on_event = call;
+        simulation->event_data = data;
+    }
 }
 
 void gb_simulation_on_progress(struct gb_simulation *simulation,
@@ -294,14 +346,18 @@ void gb_simulation_on_progress(struct gb_simulation *simulation,
                                             double share),
                                void *data, double interval)
 {
-    simulation->on_progress = call;
-    simulation->progress_data = data;
-    simulation->interval = interval;
+    if (simulation) {
+        simulation->on_progress = call;
+        simulation->progress_data = data;
+        simulation->interval = interval > 0.0 ? interval : 0.0;
+    }
 }
 
 void gb_simulation_cancel(struct gb_simulation *simulation, const char *reason)
 {
-    atomic_store(&simulation->reason, reason ? reason : "cancelled");
+    if (simulation) {
+        atomic_store(&simulation->reason, reason ? reason : "cancelled");
+    }
 }
 
 /* --- advances -------------------------------------------------------------------- */
@@ -312,11 +368,11 @@ bool gb_simulation_build(struct gb_simulation *simulation, struct gb_error *err)
     if (simulation->loop.experiment) {
         return true;
     }
-    const bool good =
-        simulation->begin
-            ? gb_experiment_resume(&experiment, &simulation->params, simulation->begin, err)
-            : gb_experiment_create(&experiment, &simulation->params, packing_cancelled,
-                                   simulation, err);
+    const bool good = simulation->begin
+                          ? gb_experiment_resume(&experiment, &simulation->params,
+                                                 simulation->begin, err)
+                          : gb_experiment_create(&experiment, &simulation->params,
+                                                 packing_cancelled, simulation, err);
     drop_begin(simulation);
     if (good) {
         attach(simulation, experiment);
@@ -328,8 +384,8 @@ static bool begin(struct gb_simulation *simulation, struct gb_error *err)
 {
     return gb_simulation_build(simulation, err) &&
            (!simulation->directory || simulation->loop.recorder ||
-            gb_simulation_start_record(simulation, simulation->directory, simulation->mode,
-                                       err));
+            gb_simulation_start_record(simulation, simulation->directory,
+                                       simulation->mode, err));
 }
 
 static bool has_ended(const struct gb_simulation *simulation)
@@ -341,6 +397,9 @@ static bool has_ended(const struct gb_simulation *simulation)
 
 void gb_simulation_leave(struct gb_simulation *simulation)
 {
+    if (!gb_simulation_usable(simulation, false, NULL)) {
+        return;
+    }
     struct gb_run_loop *loop = &simulation->loop;
     gb_run_loop_leave(loop);
     gb_run_recorder_destroy(loop->recorder);
@@ -381,6 +440,19 @@ static enum gb_run_outcome advance(struct gb_simulation *simulation, int64_t poi
 enum gb_run_outcome gb_simulation_advance(struct gb_simulation *simulation,
                                           int64_t points, struct gb_error *err)
 {
+    if (!gb_simulation_usable(simulation, true, err)) {
+        return GB_RUN_OUTCOME_FAILED;
+    }
+    if (points < 0) {
+        gb_error_set(err, GB_ERR_INPUT,
+                     "points = %" G_GINT64_FORMAT ": expected 0 or more", points);
+        return GB_RUN_OUTCOME_FAILED;
+    }
+    if (atomic_exchange(&simulation->advancing, true)) {
+        gb_error_set(err, GB_ERR_INPUT,
+                     "an advance is under way; expected one at a time");
+        return GB_RUN_OUTCOME_FAILED;
+    }
     if (!has_ended(simulation)) {
         go_on(simulation);
         gb_array_forget(&simulation->packing);
@@ -392,8 +464,10 @@ enum gb_run_outcome gb_simulation_advance(struct gb_simulation *simulation,
         }
     }
     const struct gb_error *why = &simulation->loop.error;
-    if (simulation->outcome != GB_RUN_OUTCOME_NONE && why->code != GB_OK) {
+    const enum gb_run_outcome outcome = simulation->outcome;
+    if (outcome != GB_RUN_OUTCOME_NONE && why->code != GB_OK) {
         gb_error_set(err, why->code, "%s", why->text);
     }
-    return simulation->outcome;
+    atomic_store(&simulation->advancing, false);
+    return outcome;
 }

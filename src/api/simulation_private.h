@@ -2,6 +2,7 @@
 #define GB_API_SIMULATION_PRIVATE_H
 
 #include <stdatomic.h>
+#include <sys/types.h>
 
 #include "api/array_private.h"
 #include "greenbody/simulation.h"
@@ -31,8 +32,8 @@ struct gb_simulation {
     struct gb_array_source packing; /* of the experiment, for arrays */
     enum gb_simulation_origin origin;
     enum gb_run_outcome outcome; /* of the last advance */
-    struct gb_record *begin;     /* the state of GB_SIMULATION_LOADED, until it is built */
-    char *directory;             /* of the records, before the recorder; NULL: none */
+    struct gb_record *begin; /* the state of GB_SIMULATION_LOADED, until it is built */
+    char *directory;         /* of the records, before the recorder; NULL: none */
     enum gb_rundir_mode mode;
     char resumed[96];  /* event of the next advance; empty: none */
     double returned_s; /* clock reading when the last advance ended; 0: none yet */
@@ -47,7 +48,14 @@ struct gb_simulation {
     void *progress_data;
     double interval, called_s; /* of on_progress: s, clock reading */
     struct gb_simulation_hooks hooks;
+    pid_t process;         /* that has created it, with its threads and files */
+    atomic_bool advancing; /* an advance is under way, in any thread */
 };
+
+/* May it be used by this process now?  Errors: GB_ERR_INPUT in a child that has inherited it
+ * by fork, or, unless `within` one, while an advance is under way. */
+bool gb_simulation_usable(const struct gb_simulation *simulation, bool within,
+                          struct gb_error *err);
 
 /* For the commands of the program: parameters as the engine has them.  Errors as of
  * gb_simulation_create. */

@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "api/arguments.h"
 #include "api/parameters_private.h"
 #include "api/simulation_private.h"
 #include "base/alloc.h"
@@ -14,18 +15,21 @@
 
 size_t gb_simulation_points(const struct gb_simulation *simulation)
 {
-    return gb_curve_count(simulation->curve);
+    return simulation ? gb_curve_count(simulation->curve) : 0;
 }
 
 const struct gb_point *gb_simulation_point(const struct gb_simulation *simulation,
                                            size_t index)
 {
-    return gb_curve_at(simulation->curve, index);
+    return index < gb_simulation_points(simulation)
+               ? gb_curve_at(simulation->curve, index)
+               : NULL;
 }
 
 double gb_simulation_progress(const struct gb_simulation *simulation)
 {
-    const struct gb_experiment *experiment = simulation->loop.experiment;
+    const struct gb_experiment *experiment =
+        simulation ? simulation->loop.experiment : NULL;
     const double share = experiment ? gb_experiment_progress(experiment) : 0.0;
     return isfinite(share) ? share : 0.0;
 }
@@ -33,7 +37,9 @@ double gb_simulation_progress(const struct gb_simulation *simulation)
 bool gb_simulation_parameters(const struct gb_simulation *simulation,
                               struct gb_parameters **out, struct gb_error *err)
 {
-    return gb_parameters_wrap(out, &simulation->params, err);
+    return gb_arguments_given(simulation, "simulation", err) &&
+           gb_arguments_given(out, "out", err) &&
+           gb_parameters_wrap(out, &simulation->params, err);
 }
 
 static bool has_packing(const struct gb_simulation *simulation, const char *what,
@@ -47,7 +53,8 @@ static bool has_packing(const struct gb_simulation *simulation, const char *what
 bool gb_simulation_array(struct gb_simulation *simulation, const char *name,
                          struct gb_array *array, struct gb_error *err)
 {
-    return has_packing(simulation, name, err) &&
+    return gb_simulation_usable(simulation, true, err) &&
+           gb_arguments_given(name, "name", err) && has_packing(simulation, name, err) &&
            gb_array_find(&simulation->packing, name, array, err);
 }
 
@@ -81,7 +88,8 @@ static bool copy_optional(struct gb_array_source *packing, struct gb_state *stat
 bool gb_simulation_state(struct gb_simulation *simulation, struct gb_saved_state **out,
                          struct gb_error *err)
 {
-    if (!has_packing(simulation, "state", err)) {
+    if (!gb_simulation_usable(simulation, true, err) ||
+        !gb_arguments_given(out, "out", err) || !has_packing(simulation, "state", err)) {
         return false;
     }
     struct gb_saved_state *saved = gb_alloc_array(1, sizeof *saved, err);
@@ -113,6 +121,10 @@ static bool write(struct gb_simulation *simulation, struct gb_record *record,
 bool gb_simulation_save(struct gb_simulation *simulation, const char *path,
                         struct gb_error *err)
 {
+    if (!gb_simulation_usable(simulation, true, err) ||
+        !gb_arguments_given(path, "path", err)) {
+        return false;
+    }
     const enum gb_step_outcome last = simulation->loop.last;
     if (gb_simulation_points(simulation) == 0 ||
         (last != GB_STEP_POINT && last != GB_STEP_DONE)) {
@@ -153,7 +165,8 @@ bool gb_simulation_load(struct gb_simulation **out,
                         struct gb_error *err)
 {
     struct gb_simulation *simulation = NULL;
-    if (!gb_simulation_create(&simulation, parameters, err)) {
+    if (!gb_arguments_given(out, "out", err) || !gb_arguments_given(path, "path", err) ||
+        !gb_simulation_create(&simulation, parameters, err)) {
         return false;
     }
     struct gb_record *record = gb_alloc_array(1, sizeof *record, err);

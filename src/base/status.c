@@ -10,6 +10,9 @@ bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format,
     if (!err) {
         return false;
     }
+    if (!format) {
+        format = "";
+    }
     char text[2 * sizeof err->text]; /* the arguments may point into err itself */
     va_list arguments;
     va_start(arguments, format);

@@ -88,6 +88,13 @@ char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t si
 {
     static const char *const names[] = {"load",   "relax", "hold",   "unload",
                                         "in-die", "eject", "ejected"};
+    if (!buffer || size == 0) {
+        return NULL;
+    }
+    if (!point || (point->branch < GB_BRANCH_LEAST && point->branch >= GB_BRANCH_LEG)) {
+        buffer[0] = '\0';
+        return buffer;
+    }
     if (point->branch < GB_BRANCH_LEG) {
         snprintf(buffer, size, "leg:%d", GB_BRANCH_LEG - point->branch);
         return buffer;
