@@ -14,23 +14,25 @@ struct progress {
     bool visited; /* the state as it is */
 };
 
-/* Whether the last recorded point is the first beyond a point of the list. */
-static bool is_due(struct progress *progress, const struct gb_point *point)
+/* The points of the list that the last recorded point is the first beyond, as bits. */
+static unsigned find_due(struct progress *progress, const struct gb_point *point)
 {
-    int due = 0;
+    unsigned due = 0;
     if (point->branch != GB_BRANCH_LOAD) {
-        return false;
+        return 0;
     }
     for (int k = 0; k < progress->points->count; k++) {
         const struct gb_keep_point *at = &progress->points->point[k];
         const double before = at->by_density ? progress->density : progress->p_pa;
         const double now = at->by_density ? point->density : point->p_pa;
-        due += gb_keep_points_reached(at, progress->params, before, now);
+        if (gb_keep_points_reached(at, progress->params, before, now)) {
+            due |= 1U << k;
+            progress->reached++;
+        }
     }
     progress->p_pa = fmax(progress->p_pa, point->p_pa);
     progress->density = fmax(progress->density, point->density);
-    progress->reached += due;
-    return due > 0;
+    return due;
 }
 
 static bool press(struct gb_experiment *experiment, struct progress *progress,
@@ -46,18 +48,21 @@ static bool press(struct gb_experiment *experiment, struct progress *progress,
             return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
         }
         if (outcome == GB_STEP_POINT) {
-            progress->visited = is_due(progress, gb_experiment_point(experiment));
-            if (progress->visited && !walk->visit(walk->data, experiment, err)) {
+            const unsigned due = find_due(progress, gb_experiment_point(experiment));
+            progress->visited = due != 0;
+            if (due != 0 && !walk->visit(walk->data, experiment, due, err)) {
                 return false;
             }
         }
         if (outcome == GB_STEP_STOPPED) {
             struct gb_error ignored;
-            (void)(progress->visited || walk->visit(walk->data, experiment, &ignored));
+            (void)(progress->visited ||
+                   walk->visit(walk->data, experiment, GB_KEEP_WALK_STOPPED, &ignored));
             return false;
         }
         if (outcome == GB_STEP_DONE) {
-            return progress->visited || walk->visit(walk->data, experiment, err);
+            const unsigned visited = progress->visited ? GB_KEEP_WALK_VISITED : 0U;
+            return walk->visit(walk->data, experiment, GB_KEEP_WALK_END | visited, err);
         }
     }
 }
@@ -73,7 +78,7 @@ bool gb_keep_walk_run(const struct gb_params *params, const struct gb_keep_walk 
     }
     const bool placed =
         params->structure != GB_STRUCTURE_GROWN && walk->points->count == 0;
-    const bool done = placed ? walk->visit(walk->data, experiment, err)
+    const bool done = placed ? walk->visit(walk->data, experiment, GB_KEEP_WALK_END, err)
                              : press(experiment, &progress, walk, err);
     *missed = walk->points->count - progress.reached;
     gb_experiment_destroy(experiment);

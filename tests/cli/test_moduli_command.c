@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include <glib.h>
@@ -158,6 +159,54 @@ static void test_missed(void)
     g_strfreev(lines);
 }
 
+/* Replicas are matched by the point asked for: a cell that ends before it is missing there
+ * and does not end the others.  The first point lies between the ends of four cells. */
+static void test_short_replica(void)
+{
+    static const char *const words =
+        "moduli default particles.count=100 numerics.fidelity=fast loading.unload_from= "
+        "'loading.until=30 MPa' --no-range --csv --quiet ";
+    double end[4], least = INFINITY, largest = 0.0, sum = 0.0;
+    for (int seed = 1; seed <= 4; seed++) {
+        char *one = g_strdup_printf("%s structure.seed=%d", words, seed);
+        char **lines = table_of(NULL, one, 0);
+        end[seed - 1] = value_of(lines, 0, "density");
+        sum += 0.25 * value_of(lines, 0, "C33_GPa");
+        least = fmin(least, end[seed - 1]);
+        largest = fmax(largest, end[seed - 1]);
+        g_strfreev(lines);
+        g_free(one);
+    }
+    const double between = 0.5 * (least + largest);
+    int reached = 0;
+    for (int k = 0; k < 4; k++) {
+        reached += end[k] >= between;
+    }
+    char *all = g_strdup_printf("%s --replicas 4 --at 'density=%.6f; density=0.28'", words,
+                                between);
+    char **lines = table_of(NULL, all, 1);
+    g_assert_cmpuint(g_strv_length(lines), ==, 4);
+    int partial = 0, ends = 0;
+    for (guint row = 0; row < 3; row++) {
+        const double replicas = value_of(lines, row, "replicas");
+        const double density = value_of(lines, row, "density");
+        g_assert_cmpfloat(value_of(lines, row, "missing"), ==, 4.0 - replicas);
+        if (replicas < 4.0) {
+            g_assert_cmpfloat(replicas, ==, reached);
+            g_assert_cmpfloat(density, >=, between);
+            g_assert_cmpfloat(density, <, between + 0.01);
+            partial++;
+        } else if (fabs(value_of(lines, row, "C33_GPa") - sum) < 1e-8) {
+            ends++;
+        }
+    }
+    g_assert_cmpint(partial, ==, 1);
+    g_assert_cmpint(ends, ==, 1);
+    g_assert_cmpfloat_with_epsilon(value_of(lines, 0, "density"), 0.28, 5e-3);
+    g_strfreev(lines);
+    g_free(all);
+}
+
 static void check_refused(const char *folder, const char *words, const char *said)
 {
     struct result result = program_call(program, folder, words);
@@ -300,7 +349,7 @@ static void test_refused(void)
         {"moduli default structure.kind=hexagonal particles.count=100",
          "must be grown, sc, fcc, bcc or diamond with scene.dimension = 3"},
         {"moduli default structure.kind=fcc particles.count=108 --replicas 2",
-         "--replicas: must be 1 with a lattice"},
+         "structure.kind = fcc: expected grown for 2 cells"},
         {"moduli default --replicas 0", "--replicas 0: must be 1 to 1000"},
         {"moduli default --at 'every 5'", "--at every 5: must be up to 16 pressures"},
         {"moduli default --at density=1.5", "--at density=1.5: must be up to 16"},
@@ -324,6 +373,7 @@ int main(int argc, char **argv)
     g_test_add_func("/moduli-command/fcc", test_fcc);
     g_test_add_func("/moduli-command/hexagonal", test_hexagonal);
     g_test_add_func("/moduli-command/replicas", test_replicas);
+    g_test_add_func("/moduli-command/short-replica", test_short_replica);
     g_test_add_func("/moduli-command/overshoot", test_overshoot);
     g_test_add_func("/moduli-command/missed", test_missed);
     g_test_add_func("/moduli-command/directory", test_directory);

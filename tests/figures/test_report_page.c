@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "figures/report/report.h"
+#include "run/moduli/moduli_states.h"
 
 /* Captions are numbered from 1 on, and name the conditions of the runs where they show
  * data. */
@@ -67,12 +68,60 @@ static void test_report(void)
     g_free(paths[1]);
 }
 
+/* moduli.csv of a run whose last row is the state after `step`; E in GPa. */
+static void write_moduli(const char *directory, double step, double young)
+{
+    GArray *states = g_array_new(FALSE, FALSE, sizeof(struct gb_moduli_state));
+    struct gb_moduli_table_row row = {0};
+    struct gb_moduli_state state = {0};
+    row.value[gb_moduli_table_find("step")] = step;
+    row.value[gb_moduli_table_find("E_GPa")] = young;
+    gb_moduli_states_add(&state, &row);
+    g_array_append_val(states, state);
+    GString *text = gb_moduli_states_csv(states, NULL);
+    figure_folder_write(directory, GB_MODULI_STATES_FILE, text->str);
+    g_string_free(text, TRUE);
+    g_array_unref(states);
+}
+
+/* Moduli "of the last state" leave out a run whose last state was not probed. */
+static void test_moduli_of_ends(void)
+{
+    struct gb_runset set = {0};
+    struct gb_error err = {0};
+    figure_runs_quasistatic("m1", 31, "10 nm", 0.0);
+    figure_runs_quasistatic("m2", 32, "10 nm", 0.0);
+    char *paths[] = {figure_folder_path("m1", NULL), figure_folder_path("m2", NULL)};
+    char *output = figure_folder_path("moduli-report", NULL), *page = NULL;
+    g_assert_true(gb_runset_read(&set, paths, 2, &err));
+    const double *steps = gb_table_column(set.run[0].table, "step", &err);
+    const double last = steps[gb_table_rows(set.run[0].table) - 1];
+    write_moduli("m1", last, 17.25);
+    write_moduli("m2", last - 3.0, 5.5);
+    g_assert_true(gb_report_write(&set, NULL, output, &err));
+    char *markdown = g_build_filename(output, "report.md", NULL);
+    g_assert_true(g_file_get_contents(markdown, &page, NULL, NULL));
+    const char *line = strstr(page, "Young's modulus of the last state");
+    g_assert_nonnull(line);
+    char *row = g_strndup(line, strcspn(line, "\n"));
+    g_test_message("%s", row);
+    g_assert_nonnull(strstr(row, "17.25"));
+    gb_runset_finish(&set);
+    g_free(row);
+    g_free(markdown);
+    g_free(page);
+    g_free(output);
+    g_free(paths[0]);
+    g_free(paths[1]);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     figure_folder_init();
     figure_runs_write();
     g_test_add_func("/figures/report", test_report);
+    g_test_add_func("/figures/report-moduli", test_moduli_of_ends);
     const int status = g_test_run();
     figure_folder_finish();
     return status;

@@ -12,8 +12,10 @@
 #include "cli/signals.h"
 #include "figures/states.h"
 #include "io/preset.h"
+#include "run/keep_walk.h"
 #include "run/moduli/moduli_states.h"
 #include "scene/loading_kind.h"
+#include "scene/seed.h"
 
 enum { REPLICAS_MAX = 1000 };
 
@@ -29,9 +31,12 @@ struct request {
 struct collector {
     const struct request *request;
     struct gb_moduli_folder folder; /* of --out */
-    GArray *state;                  /* struct gb_moduli_state */
-    guint next;                     /* state of the run under way */
-    guint at, total;                /* of the states of a run directory; 0: none */
+    /* struct gb_moduli_state: of a preset the points asked for and the end, each the same
+     * for all replicas; of a run directory its states. */
+    GArray *state;
+    struct gb_keep_points points; /* of a preset */
+    unsigned reached;             /* points, as bits, of the replica under way */
+    guint at, total;              /* of the states of a run directory; 0: none */
 };
 
 static void print_progress(const struct collector *collector,
@@ -50,17 +55,75 @@ static void print_progress(const struct collector *collector,
     }
 }
 
+static struct gb_moduli_state *state_at(const struct collector *collector, guint k)
+{
+    return &g_array_index(collector->state, struct gb_moduli_state, k);
+}
+
+/* Two rows of the same states: a run that ends at a point, a step over two points. */
+static bool is_repeated(const struct gb_moduli_state *a, const struct gb_moduli_state *b)
+{
+    return a->count == b->count && memcmp(a->sum, b->sum, sizeof a->sum) == 0;
+}
+
+/* The states that there are, in the order of the run and each once. */
+static GArray *list_states(const struct collector *collector)
+{
+    GArray *list = g_array_new(FALSE, FALSE, sizeof(struct gb_moduli_state));
+    for (guint k = 0; k < collector->state->len; k++) {
+        bool wanted = state_at(collector, k)->count > 0;
+        for (guint i = 0; i < k && wanted; i++) {
+            wanted = !is_repeated(state_at(collector, i), state_at(collector, k));
+        }
+        if (wanted) {
+            g_array_append_vals(list, state_at(collector, k), 1);
+        }
+    }
+    if (collector->total == 0) {
+        gb_moduli_states_sort(list);
+    }
+    return list;
+}
+
+/* The last state of a run that stopped early is no state of a mean. */
+static void add_to_points(struct collector *collector,
+                          const struct gb_moduli_table_row *row)
+{
+    const bool alone = collector->request->replicas == 1;
+    unsigned what = row->what & (GB_KEEP_WALK_END | (GB_KEEP_WALK_END - 1));
+    if ((row->what & GB_KEEP_WALK_STOPPED) && alone) {
+        what |= GB_KEEP_WALK_END;
+    }
+    for (int k = 0; k < collector->points.count; k++) {
+        if (what & 1U << k) {
+            gb_moduli_states_add(state_at(collector, (guint)k), row);
+        }
+    }
+    if (what & GB_KEEP_WALK_END) {
+        gb_moduli_states_add(state_at(collector, (guint)collector->points.count), row);
+    }
+    collector->reached |= what;
+}
+
 static bool add_row(void *data, const struct gb_moduli_table_row *row,
                     struct gb_error *err)
 {
     struct collector *collector = data;
-    if (collector->next == collector->state->len) {
-        g_array_set_size(collector->state, collector->next + 1);
+    if (collector->total > 0) {
+        struct gb_moduli_state state = {0};
+        gb_moduli_states_add(&state, row);
+        g_array_append_val(collector->state, state);
+    } else {
+        add_to_points(collector, row);
     }
-    gb_moduli_states_add(
-        &g_array_index(collector->state, struct gb_moduli_state, collector->next++), row);
-    print_progress(collector, row);
-    return gb_moduli_folder_write(&collector->folder, collector->state, err);
+    if (!(row->what & GB_KEEP_WALK_VISITED)) {
+        print_progress(collector, row);
+    }
+    GArray *list = list_states(collector);
+    const bool good =
+        list->len == 0 || gb_moduli_folder_write(&collector->folder, list, err);
+    g_array_free(list, TRUE);
+    return good;
 }
 
 static bool is_new(void *data, int64_t step)
@@ -98,30 +161,68 @@ static struct gb_moduli_table_sink sink_of(struct collector *collector)
                                          .range = !collector->request->quick};
 }
 
-/* Runs of one preset that differ by their seed. */
+/* Counts the replica under way as missing where it did not get. */
+static void end_replica(struct collector *collector)
+{
+    for (int k = 0; k <= collector->points.count; k++) {
+        const unsigned bit =
+            k < collector->points.count ? 1U << k : (unsigned)GB_KEEP_WALK_END;
+        state_at(collector, (guint)k)->missing += !(collector->reached & bit);
+    }
+}
+
+/* What all replicas have missed; why: the error of the first that stopped. */
+static bool check_reached(const struct collector *collector, const struct gb_error *why,
+                          struct gb_error *err)
+{
+    const int replicas = collector->request->replicas;
+    for (int k = 0; k < collector->points.count; k++) {
+        const struct gb_keep_point *at = &collector->points.point[k];
+        const int missing = state_at(collector, (guint)k)->missing;
+        if (missing > 0) {
+            return gb_error_set(err, GB_ERR_GUARD,
+                                "%s = %g%s: reached by %d of %d runs%s%s",
+                                at->by_density ? "density" : "p",
+                                at->by_density ? at->value : 1e-6 * at->value,
+                                at->by_density ? "" : " MPa", replicas - missing,
+                                replicas, why->code != GB_OK ? "; " : "", why->text);
+        }
+    }
+    return why->code == GB_OK || gb_error_set(err, why->code, "%s", why->text);
+}
+
+/* Runs of one preset that differ by their seed.  One that stops early does not end the
+ * others. */
 static bool probe_preset(const struct request *request, const struct gb_params *params,
                          struct collector *collector, struct gb_error *err)
 {
     const struct gb_moduli_table_sink sink = sink_of(collector);
-    struct gb_keep_points points = request->points;
+    struct gb_error why = {0};
+    collector->points = request->points;
     if (request->at == NULL) {
-        (void)gb_keep_points_parse(params->snapshots_at, &points, NULL);
+        (void)gb_keep_points_parse(params->snapshots_at, &collector->points, NULL);
     }
+    g_array_set_size(collector->state, (guint)collector->points.count + 1);
     for (int k = 0; k < request->replicas; k++) {
         struct gb_params replica = *params;
+        struct gb_error own = {0};
         int missed = 0;
         replica.seed += (uint64_t)k;
-        collector->next = 0;
-        if (!gb_moduli_table_run(&replica, &points, &sink, &missed, err)) {
-            return false;
+        collector->reached = 0;
+        if (!gb_moduli_table_run(&replica, &collector->points, &sink, &missed, &own)) {
+            if (own.code != GB_ERR_GUARD && own.code != GB_ERR_NOT_CONVERGED) {
+                *err = own;
+                return false;
+            }
+            why = why.code == GB_OK ? own : why;
         }
-        if (missed > 0) {
-            return gb_error_set(err, GB_ERR_GUARD,
-                                "the run has ended before %d of the %d points asked for",
-                                missed, points.count);
-        }
+        end_replica(collector);
     }
-    return true;
+    GArray *list = list_states(collector);
+    const bool good =
+        list->len == 0 || gb_moduli_folder_write(&collector->folder, list, err);
+    g_array_free(list, TRUE);
+    return good && check_reached(collector, &why, err);
 }
 
 static bool check_replicas(const struct request *request, const struct gb_params *params,
@@ -131,9 +232,7 @@ static bool check_replicas(const struct request *request, const struct gb_params
         return gb_error_set(err, GB_ERR_INPUT, "--replicas %d: must be 1 to %d",
                             request->replicas, REPLICAS_MAX);
     }
-    return request->replicas == 1 || params->structure == GB_STRUCTURE_GROWN ||
-           gb_error_set(err, GB_ERR_INPUT,
-                        "--replicas: must be 1 with a lattice, which has no seed");
+    return gb_seed_check_cells(params, (size_t)request->replicas, err);
 }
 
 static bool run_preset(const struct request *request, char **words,
@@ -193,9 +292,11 @@ static int perform(struct request *request, char **words)
     collector.state = g_array_new(FALSE, TRUE, sizeof(struct gb_moduli_state));
     done = done && (directory ? run_directory(request, words[0], &collector, &err)
                               : run_preset(request, words, &collector, &err));
-    if (collector.state->len > 0) {
-        print_states(request, collector.state);
+    GArray *list = list_states(&collector);
+    if (list->len > 0) {
+        print_states(request, list);
     }
+    g_array_free(list, TRUE);
     g_array_free(collector.state, TRUE);
     gb_moduli_folder_finish(&collector.folder);
     if (done) {

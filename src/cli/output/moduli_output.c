@@ -95,10 +95,11 @@ void gb_moduli_output_state(const struct gb_moduli_state *state)
     print_value(state, "p_MPa", 6);
     gb_visible_print(stdout, " MPa (x %.5g, y %.5g, z %.5g)\n", plain(state, "px_MPa"),
                      plain(state, "py_MPa"), plain(state, "pz_MPa"));
-    if (state->count > 1) {
+    if (state->count + state->missing > 1) {
         gb_visible_print(stdout,
-                         "replicas       %d, errors are standard errors of the mean\n",
-                         state->count);
+                         "replicas       %d of %d, errors are standard errors of the "
+                         "mean\n",
+                         state->count, state->count + state->missing);
     }
     gb_visible_print(
         stdout,

@@ -61,12 +61,10 @@ static void put_densities(struct gb_report_table *table, const struct gb_runset 
                           size_t group, const char *scene)
 {
     for (size_t k = 0; k < G_N_ELEMENTS(levels); k++) {
-        struct result result = {.scene = scene,
-                                .cells = gb_runset_members(set, group),
-                                .unit = "1",
-                                .decimals = 4};
-        if (gb_density_at_pressure(set, group, levels[k], &result.mean, &result.error,
-                                   NULL)) {
+        struct result result = {.scene = scene, .unit = "1", .decimals = 4};
+        result.cells = gb_density_at_pressure(set, group, levels[k], &result.mean,
+                                              &result.error, NULL);
+        if (result.cells > 0) {
             char *quantity = g_strdup_printf("relative density at %g MPa", levels[k]);
             if (result.cells == 1) {
                 result.error = gb_cell_scatter(&gb_runset_first(set, group)->params);
@@ -116,7 +114,17 @@ static void put_die(struct gb_report_table *table, const struct gb_runset *set,
     }
 }
 
-/* A modulus of the last state in moduli.csv of each run of a group. */
+/* The state is the last point of the run: moduli.csv may lack it, or end before it. */
+static bool is_end(const struct gb_runset_run *run, const struct gb_moduli_state *state)
+{
+    const double *steps =
+        run->table != NULL ? gb_table_column(run->table, "step", NULL) : NULL;
+    const size_t rows = steps != NULL ? gb_table_rows(run->table) : 0;
+    return rows > 0 &&
+           steps[rows - 1] == gb_moduli_states_mean(state, gb_moduli_table_find("step"));
+}
+
+/* A modulus of the last state of each run of a group, of those whose moduli.csv has it. */
 static void put_modulus(struct gb_report_table *table, const struct gb_runset *set,
                         size_t group, const char *scene, const char *column,
                         const char *quantity)
@@ -134,9 +142,11 @@ static void put_modulus(struct gb_report_table *table, const struct gb_runset *s
             gb_moduli_states_sort(states);
             const struct gb_moduli_state *last =
                 &g_array_index(states, struct gb_moduli_state, states->len - 1);
-            values[result.cells++] =
-                gb_moduli_states_mean(last, gb_moduli_table_find(column));
-            own = gb_moduli_states_error(last, gb_moduli_table_find(column));
+            if (is_end(&set->run[i], last)) {
+                values[result.cells++] =
+                    gb_moduli_states_mean(last, gb_moduli_table_find(column));
+                own = gb_moduli_states_error(last, gb_moduli_table_find(column));
+            }
         }
         g_free(path);
         g_array_unref(states);
@@ -188,7 +198,7 @@ static void put_misfit(struct gb_report_table *table, const struct gb_report *re
         double error = NAN;
         if (!is_unloading(report->data, i) &&
             gb_density_at_pressure(report->set, group, 1e-6 * measured->pressure_pa[i],
-                                   &mean, &error, NULL)) {
+                                   &mean, &error, NULL) > 0) {
             squares += pow(mean - measured->density[i], 2.0);
             points++;
         }

@@ -32,9 +32,11 @@ static bool density_table(struct gb_report *report, struct gb_error *err)
         for (size_t k = 0; k < G_N_ELEMENTS(levels); k++) {
             double mean = NAN;
             double error = NAN;
-            if (gb_density_at_pressure(set, g, levels[k], &mean, &error, NULL)) {
+            const size_t cells =
+                gb_density_at_pressure(set, g, levels[k], &mean, &error, NULL);
+            if (cells > 0) {
                 gb_report_table_put(&table, "%s", name);
-                gb_report_table_put(&table, "%zu", gb_runset_members(set, g));
+                gb_report_table_put(&table, "%zu", cells);
                 gb_report_table_put(&table, "%g", levels[k]);
                 gb_report_table_put_mean(&table, mean, error, 4);
             }

@@ -5,9 +5,9 @@
 #include "base/alloc.h"
 #include "measure/fit/average.h"
 
-bool gb_density_at_pressure(const struct gb_runset *set, size_t group,
-                            double pressure_mpa, double *mean, double *error,
-                            struct gb_error *err)
+size_t gb_density_at_pressure(const struct gb_runset *set, size_t group,
+                              double pressure_mpa, double *mean, double *error,
+                              struct gb_error *err)
 {
     double *values = g_new(double, set->count);
     size_t members = 0;
@@ -30,7 +30,9 @@ bool gb_density_at_pressure(const struct gb_runset *set, size_t group,
     }
     const size_t used = gb_average_values(values, members, mean, error);
     g_free(values);
-    return good && (used > 0 ||
-                    gb_error_set(err, GB_ERR_INPUT, "%.300s: never reaches %g MPa",
-                                 gb_runset_first(set, group)->directory, pressure_mpa));
+    if (good && used == 0) {
+        gb_error_set(err, GB_ERR_INPUT, "%.300s: never reaches %g MPa",
+                     gb_runset_first(set, group)->directory, pressure_mpa);
+    }
+    return good ? used : 0;
 }

@@ -90,7 +90,7 @@ static bool fill(struct gb_series *series, const struct gb_runset *set,
     for (size_t k = 0; k < set->groups && good; k++) {
         rows->diameter[k] = 1e9 * gb_runset_first(set, rows->order[k])->params.diameter_m;
         good = gb_density_at_pressure(set, rows->order[k], pressure_mpa,
-                                      &rows->density[k], &rows->error[k], err);
+                                      &rows->density[k], &rows->error[k], err) > 0;
     }
     int style = 0;
     for (size_t g = 0; g < set->groups && good; g++) {

@@ -200,8 +200,8 @@ bool gb_figures_sweep(struct gb_series *series, const struct gb_figures_input *i
     bool good = true;
     for (size_t k = 0; k < set->groups && good; k++) {
         x[k] = point[k].x;
-        good =
-            gb_density_at_pressure(set, point[k].group, mpa, &density[k], &error[k], err);
+        good = gb_density_at_pressure(set, point[k].group, mpa, &density[k], &error[k],
+                                      err) > 0;
     }
     const double *const columns[3] = {x, density, error};
     if (good) {

@@ -49,7 +49,7 @@ static void append_head(GString *text, bool errors)
     for (int k = 0; k < COLUMNS; k++) {
         g_string_append_printf(text, "%s%s", k > 0 ? "," : "", gb_moduli_table_name(k));
     }
-    g_string_append(text, ",replicas");
+    g_string_append(text, errors ? ",replicas,missing" : ",replicas");
     for (int k = 0; k < COLUMNS && errors; k++) {
         g_string_append_printf(text, ",error_%s", gb_moduli_table_name(k));
     }
@@ -58,7 +58,10 @@ static void append_head(GString *text, bool errors)
 
 GString *gb_moduli_states_csv(const GArray *states, const char *comment)
 {
-    const bool errors = states->len > 0 && state_at(states, 0)->count > 1;
+    bool errors = false;
+    for (guint s = 0; s < states->len; s++) {
+        errors = errors || state_at(states, s)->count + state_at(states, s)->missing > 1;
+    }
     GString *text = g_string_new(NULL);
     char **lines = g_strsplit(comment != NULL ? comment : "", "\n", 0);
     for (int i = 0; lines[i] != NULL; i++) {
@@ -73,6 +76,9 @@ GString *gb_moduli_states_csv(const GArray *states, const char *comment)
             g_string_append_c(text, ',');
         }
         g_string_append_printf(text, "%d", state->count);
+        if (errors) {
+            g_string_append_printf(text, ",%d", state->missing);
+        }
         for (int k = 0; k < COLUMNS && errors; k++) {
             g_string_append_c(text, ',');
             append_number(text, gb_moduli_states_error(state, k));

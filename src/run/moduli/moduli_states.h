@@ -14,6 +14,7 @@
 /* Sums over the replicas of one state. */
 struct gb_moduli_state {
     int count;
+    int missing; /* replicas that did not get there */
     double sum[GB_MODULI_TABLE_COLUMNS], squares[GB_MODULI_TABLE_COLUMNS];
     double c_gpa[6][6];
     bool range_open; /* of one of them at least */
@@ -25,8 +26,8 @@ double gb_moduli_states_mean(const struct gb_moduli_state *state, int column);
 /* Standard error over the replicas; NaN for one. */
 double gb_moduli_states_error(const struct gb_moduli_state *state, int column);
 
-/* A header row and a row per state (struct gb_moduli_state): the columns of the table,
- * `replicas`, and error_* of each where the first state has replicas.  comment: lines put
+/* A header row and a row per state (struct gb_moduli_state): the columns of the table and
+ * `replicas`; where any state has replicas, also `missing`, and error_* of each column.  comment: lines put
  * in front, with '#'; NULL: none.  g_string_free. */
 GString *gb_moduli_states_csv(const GArray *states, const char *comment);
 

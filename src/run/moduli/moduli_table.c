@@ -190,20 +190,31 @@ void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_modul
     fill_state(row, moduli, 1e-6 * params->young_pa, params->dimension);
 }
 
-static bool probe(void *data, const struct gb_experiment *experiment,
+/* A walk's sink, and the row that was given to it last. */
+struct probing {
+    const struct gb_moduli_table_sink *sink;
+    struct gb_moduli_table_row row;
+};
+
+static bool probe(void *data, const struct gb_experiment *experiment, unsigned what,
                   struct gb_error *err)
 {
-    const struct gb_moduli_table_sink *sink = data;
+    struct probing *probing = data;
+    const struct gb_moduli_table_sink *sink = probing->sink;
     const struct gb_moduli_options options = {
         .range = sink->range, .cancelled = sink->cancelled, .data = sink->cancel_data};
     struct gb_moduli moduli;
-    struct gb_moduli_table_row row;
+    if (what & GB_KEEP_WALK_VISITED) {
+        probing->row.what = what;
+        return sink->row(sink->data, &probing->row, err);
+    }
     if (!gb_moduli_measure(&moduli, gb_experiment_world(experiment), &options, err)) {
         return false;
     }
-    gb_moduli_table_fill(&row, &moduli, gb_experiment_params(experiment));
-    put(&row, "step", (double)gb_experiment_point(experiment)->step);
-    return sink->row(sink->data, &row, err);
+    gb_moduli_table_fill(&probing->row, &moduli, gb_experiment_params(experiment));
+    put(&probing->row, "step", (double)gb_experiment_point(experiment)->step);
+    probing->row.what = what;
+    return sink->row(sink->data, &probing->row, err);
 }
 
 bool gb_moduli_table_run(const struct gb_params *params,
@@ -211,7 +222,8 @@ bool gb_moduli_table_run(const struct gb_params *params,
                          const struct gb_moduli_table_sink *sink, int *missed,
                          struct gb_error *err)
 {
-    const struct gb_keep_walk walk = {points, probe, (void *)sink, sink->cancelled,
+    struct probing probing = {.sink = sink};
+    const struct gb_keep_walk walk = {points, probe, &probing, sink->cancelled,
                                       sink->cancel_data};
     return gb_keep_walk_run(params, &walk, missed, err);
 }
@@ -222,12 +234,13 @@ bool gb_moduli_table_file(const char *directory, const char *name,
     struct gb_params params;
     struct gb_record record = {0};
     struct gb_experiment *experiment = NULL;
+    struct probing probing = {.sink = sink};
     bool done = gb_run_recorder_read(directory, name, &params, &record, err) &&
                 gb_loading_kind_check_cell(&params, "moduli", err);
     if (done &&
         (!sink->wanted || sink->wanted(sink->data, gb_checkpoint_step(&record) - 1))) {
         done = gb_experiment_resume(&experiment, &params, &record, err) &&
-               probe((void *)sink, experiment, err);
+               probe(&probing, experiment, 0, err);
     }
     gb_experiment_destroy(experiment);
     gb_record_finish(&record);

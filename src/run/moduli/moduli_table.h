@@ -21,13 +21,15 @@ struct gb_moduli_table_row {
     double value[GB_MODULI_TABLE_COLUMNS]; /* NaN where there is none */
     double c_gpa[6][6];
     bool range_open; /* the elastic range is beyond its value */
+    unsigned what;   /* of a run: points of the list, end; see run/keep_walk.h */
 };
 
 /* In GPa, MPa, m/s; all columns but `step`, which is of the run. */
 void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
                           const struct gb_params *params);
 
-/* Called with each row in the order of the run; false ends with its error. */
+/* Called with each row in the order of the run; false ends with its error.  The end of a run
+ * is a row even if its state was one before. */
 struct gb_moduli_table_sink {
     bool (*row)(void *data, const struct gb_moduli_table_row *row, struct gb_error *err);
     void *data;

@@ -31,12 +31,15 @@ static bool leave_out(struct walk *walk, double p_pa, const struct gb_error *err
     return true;
 }
 
-static bool visit(void *data, const struct gb_experiment *experiment,
+static bool visit(void *data, const struct gb_experiment *experiment, unsigned what,
                   struct gb_error *err)
 {
     struct walk *walk = data;
     const struct gb_point *point = gb_experiment_point(experiment);
     int first = 0;
+    if (what & GB_KEEP_WALK_VISITED) {
+        return true;
+    }
     const int count = gb_stability_methods(walk->params, &first);
     for (int k = first; k < first + count; k++) {
         struct gb_stability_row row;
@@ -91,24 +94,21 @@ bool gb_stability_run_stable(const struct gb_stability_row *row)
 GString *gb_stability_run_csv(const char *comment)
 {
     GString *csv = g_string_new(comment);
-    g_string_append(csv, "# longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
-                         "ratio: measured / theory; used: what the run takes; margin: "
-                         "measured / used\n"
-                         "method,p_MPa,density,damping,theory,measured,ratio,used,margin,"
-                         "stable,in_use\n");
+    g_string_append(csv,
+                    "# longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
+                    "ratio: measured / theory; used: what the run takes; margin: "
+                    "measured / used\n"
+                    "method,p_MPa,density,damping,theory,measured,ratio,used,margin,"
+                    "stable,in_use\n");
     return csv;
 }
 
 void gb_stability_run_add(GString *csv, const struct gb_stability_row *row)
 {
-    const double number[] = {1e-6 * row->p_pa,
-                             row->density,
-                             row->damping,
-                             row->theory,
-                             row->measured,
-                             row->measured / row->theory,
-                             row->used,
-                             row->measured / row->used};
+    const double number[] = {1e-6 * row->p_pa, row->density,
+                             row->damping,     row->theory,
+                             row->measured,    row->measured / row->theory,
+                             row->used,        row->measured / row->used};
     g_string_append(csv, row->method);
     for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
         g_string_append_printf(csv, ",%.8g", number[i]);
