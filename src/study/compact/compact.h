@@ -59,7 +59,8 @@ enum gb_compact_outcome gb_compact_follow(struct gb_compact *from, const char *p
                                           double step, const struct gb_compact_walk *walk,
                                           struct gb_compact *to, struct gb_error *err);
 
-/* Takes a copy to equal pressures on all axes, Pa: by equal strains where its stresses are
+/* Takes a copy to equal pressures on all axes, Pa, after it has come to rest at the tolerance
+ * of copies: by equal strains where its stresses are
  * about equal, else along a straight line of the (p, q) plane. */
 bool gb_compact_unload(struct gb_compact *from, double pressure_pa,
                        const struct gb_pool_callbacks *callbacks, struct gb_compact *to,
