@@ -52,7 +52,7 @@ Maintainer: greenbody <greenbody@localhost>
 Installed-Size: $(du -sk "$root/usr" | cut -f1)
 Depends: $depends$renderer, fonts-dejavu-core
 Recommends: tmux, ffmpeg
-Suggests: python3-numpy, openmpi-bin
+Suggests: python3-numpy
 Section: science
 Priority: optional
 Description: cold compaction of powders by discrete elements, in the terminal

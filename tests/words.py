@@ -51,7 +51,7 @@ FILE_NAMES = re.compile(r'^(world|relax|bed|die|motion|load|programme|run)?/?'
 ITEMS_IN_PAGES = re.compile(r'`world/amended`|^\.RI \( ?amended :|\bflock -n\b')
 
 # Identifiers of other libraries, and of the system: flock(2) locks a file.
-FOREIGN = re.compile(r'^(flock$|gsl_|GSL_|H5|g_|G_|cairo_|pango_|PANGO_|png_|GL_|gl[A-Z]|MPI_|A_)')
+FOREIGN = re.compile(r'^(flock$|gsl_|GSL_|H5|g_|G_|cairo_|pango_|PANGO_|png_|GL_|gl[A-Z]|A_)')
 
 TOKEN = re.compile(r'''(?P<comment>/\*.*?\*/|//[^\n]*)
                       |(?P<string>"(?:\\.|[^"\\\n])*")

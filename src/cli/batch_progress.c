@@ -1,5 +1,6 @@
 #include "cli/batch_progress.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include "base/text/visible.h"
 #include "cli/options.h"
 #include "cli/signals.h"
+#include "io/rundir.h"
 #include "many/single_run.h"
 #include "run/cost.h"
 
@@ -16,38 +18,36 @@ static const double plain_interval_s = 10.0;
 
 enum { JOBS_MAX = 4096 };
 
-static bool serve(struct gb_mpi_pool *mpi, int jobs, struct gb_error *err)
+static const char tables_lock[] = ".lock";
+
+static const double lock_interval_s = 0.05;
+static const double lock_told_s = 60.0;
+/* Runs of other processes that a line names. */
+enum { NAMED_MOST = 4 };
+
+bool gb_batch_progress_init(struct gb_batch_progress *batch, int jobs, bool quiet,
+                            struct gb_error *err)
 {
-    const size_t workers = jobs > 0 ? (size_t)jobs : 1;
-    struct gb_pool *local = NULL;
-    gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
-    const bool good =
-        gb_pool_create(&local, workers, gb_single_run_missing, NULL, err) &&
-        gb_mpi_pool_serve(mpi, local, workers, gb_signals_cancelled, NULL, err);
-    gb_pool_destroy(local);
-    return good;
+    if (jobs < 0 || jobs > JOBS_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--jobs %d: must be between 1 and %d, or 0 for all", jobs,
+                            JOBS_MAX);
+    }
+    batch->launch = gb_launch_read();
+    batch->output = quiet                     ? GB_BATCH_PROGRESS_QUIET
+                    : batch->launch.rank == 0 ? GB_BATCH_PROGRESS_ALL
+                                              : GB_BATCH_PROGRESS_OTHER;
+    return true;
 }
 
-enum gb_batch_progress_rank gb_batch_progress_join(struct gb_batch_progress *batch,
-                                                   int jobs, int *status)
+size_t gb_batch_progress_workers(const struct gb_batch_progress *batch, int jobs)
 {
-    struct gb_error err = {0};
-    if (!gb_mpi_pool_create(&batch->mpi, &err)) {
-        *status = gb_options_fail(&err);
-        return GB_BATCH_PROGRESS_OTHER;
-    }
-    batch->launched = batch->mpi != NULL;
-    if (gb_mpi_pool_is_first(batch->mpi)) {
-        return GB_BATCH_PROGRESS_FIRST;
-    }
-    /* errors of --jobs and signals are printed once, by the first rank */
-    *status =
-        serve(batch->mpi, MIN(jobs, JOBS_MAX), &err) ? 0 : gb_status_exit_code(err.code);
-    /* every rank that is left does what the command says: runs are shared by directory */
-    const bool goes_on = gb_mpi_pool_first_is_lost(batch->mpi);
-    gb_mpi_pool_destroy(batch->mpi);
-    batch->mpi = NULL;
-    return goes_on ? GB_BATCH_PROGRESS_FIRST : GB_BATCH_PROGRESS_OTHER;
+    return (size_t)(jobs > 0 ? jobs : gb_launch_cores(&batch->launch));
+}
+
+size_t gb_batch_progress_all_workers(const struct gb_batch_progress *batch, int jobs)
+{
+    return gb_batch_progress_workers(batch, jobs) * (size_t)batch->launch.count;
 }
 
 static bool is_terminal(void)
@@ -112,13 +112,26 @@ static void on_progress(const struct gb_ensemble *ensemble,
     if (batch->output == GB_BATCH_PROGRESS_QUIET) {
         return;
     }
-    if (run != NULL && run->error.code != GB_OK && run->error.code != GB_ERR_CANCELLED) {
+    if (run != NULL && !run->before && run->error.code != GB_OK &&
+        run->error.code != GB_ERR_CANCELLED) {
         clear_line(batch);
         gb_visible_line(stderr, "%s: %s", run->directory, run->error.text);
     }
-    if (gb_clock_s() - batch->printed_s >=
-        (is_terminal() ? terminal_interval_s : plain_interval_s)) {
+    if (batch->output != GB_BATCH_PROGRESS_OTHER &&
+        gb_clock_s() - batch->printed_s >=
+            (is_terminal() ? terminal_interval_s : plain_interval_s)) {
         print_line(batch);
+    }
+}
+
+static void on_wait(const struct gb_ensemble_run *run, void *data)
+{
+    struct gb_batch_progress *batch = data;
+    if (batch->output != GB_BATCH_PROGRESS_QUIET) {
+        char *holder = gb_rundir_holder(run->directory);
+        clear_line(batch);
+        gb_visible_line(stderr, "waiting for %s: %s works there", run->directory, holder);
+        g_free(holder);
     }
 }
 
@@ -145,22 +158,18 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
                             int jobs, struct gb_error *err)
 {
     struct gb_pool *pool = NULL;
-    const struct gb_ensemble_callbacks callbacks = {gb_signals_cancelled, on_progress,
-                                                    batch};
-    if (jobs < 0 || jobs > JOBS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: must be between 1 and %d, or 0 for all",
-                            jobs, JOBS_MAX);
-    }
-    const size_t workers = jobs > 0          ? (size_t)jobs
-                           : batch->launched ? 1
-                                             : g_get_num_processors();
+    const struct gb_ensemble_callbacks callbacks = {.cancelled = gb_signals_cancelled,
+                                                    .progress = on_progress,
+                                                    .on_wait = on_wait,
+                                                    .data = batch};
+    const size_t workers = gb_batch_progress_workers(batch, jobs);
     gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     begin(batch, ensemble);
     if (batch->output == GB_BATCH_PROGRESS_ALL) {
         gb_visible_line(stderr, "%zu runs, %zu of them done before; %zu at once",
                         batch->total, batch->before, workers);
     }
-    const bool good = gb_pool_create(&pool, workers, gb_single_run_missing, batch->mpi, err) &&
+    const bool good = gb_pool_create(&pool, workers, gb_single_run_missing, err) &&
                       gb_ensemble_work(ensemble, pool, &callbacks, err);
     gb_pool_destroy(pool);
     clear_line(batch);
@@ -169,6 +178,56 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
                         batch->total, batch->failed, gb_clock_s() - batch->started_s);
     }
     return good;
+}
+
+bool gb_batch_progress_lock(struct gb_lock *lock, const char *directory, bool quiet,
+                            struct gb_error *err)
+{
+    const double begun = gb_clock_s();
+    bool told = quiet;
+    while (!gb_lock_take(lock, directory, tables_lock)) {
+        if (errno != EWOULDBLOCK) {
+            return gb_error_set(err, GB_ERR_MACHINE, "%.300s: cannot be locked: %s",
+                                directory, g_strerror(errno));
+        }
+        if (gb_signals_cancelled(NULL)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+        }
+        if (!told && gb_clock_s() - begun > lock_told_s) {
+            char *holder = gb_lock_holder(directory, tables_lock);
+            gb_visible_line(stderr, "waiting for %s: %s writes its tables", directory,
+                            holder);
+            g_free(holder);
+            told = true;
+        }
+        g_usleep((gulong)(1e6 * lock_interval_s));
+    }
+    return true;
+}
+
+char *gb_batch_progress_elsewhere(const struct gb_ensemble *ensemble)
+{
+    GString *text = g_string_new(NULL);
+    size_t named = 0, more = 0;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        const struct gb_ensemble_run *run = &ensemble->run[i];
+        if (!run->elsewhere) {
+            continue;
+        }
+        if (named == NAMED_MOST) {
+            more++;
+            continue;
+        }
+        char *name = g_path_get_basename(run->directory);
+        char *holder = gb_rundir_holder(run->directory);
+        g_string_append_printf(text, "%s%s (%s)", named++ > 0 ? ", " : "", name, holder);
+        g_free(name);
+        g_free(holder);
+    }
+    if (more > 0) {
+        g_string_append_printf(text, " and %zu more", more);
+    }
+    return g_string_free(text, FALSE);
 }
 
 int gb_batch_progress_exit(const struct gb_error *err)

@@ -3,8 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text/visible.h"
 #include "cli/options.h"
 #include "cli/signals.h"
+#include "many/launch.h"
 
 enum { JOBS_MAX = 4096 };
 
@@ -71,6 +73,15 @@ static void on_progress(void *data, const struct gb_cells_item *cell, size_t don
     }
 }
 
+static void on_wait(void *data, const struct gb_cells_item *cell, const char *holder)
+{
+    struct gb_compact_options *options = data;
+    if (!options->quiet) {
+        gb_visible_line(stderr, "waiting for cells/%s: %s works on it", cell->name,
+                        holder);
+    }
+}
+
 bool gb_compact_options_begin(struct gb_compact_options *options, char **words,
                               char **sets, struct gb_keep_points *marks,
                               struct gb_error *err)
@@ -79,17 +90,18 @@ bool gb_compact_options_begin(struct gb_compact_options *options, char **words,
         return gb_error_set(err, GB_ERR_INPUT, "needs --out DIR, a directory of results");
     }
     if (options->jobs < 0 || options->jobs > JOBS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: must be between 1 and %d, or 0 for all",
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--jobs %d: must be between 1 and %d, or 0 for all",
                             options->jobs, JOBS_MAX);
     }
     if (!read_marks(options, marks, err) ||
         !gb_options_scene(&options->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err)) {
         return false;
     }
-    gb_progress_init(&options->progress, options->quiet);
+    gb_progress_init(&options->progress, options->quiet || gb_launch_read().rank > 0);
     gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     options->callbacks =
-        (struct gb_cells_callbacks){gb_signals_cancelled, on_progress, options};
+        (struct gb_cells_callbacks){gb_signals_cancelled, on_progress, on_wait, options};
     return true;
 }
 

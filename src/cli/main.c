@@ -70,9 +70,8 @@ static void print_version(void)
 #endif
     gb_visible_print(stdout, "greenbody %s\n", GB_VERSION);
     gb_visible_print(stdout, "compiler: %s\n", compiler);
-    gb_visible_print(stdout, "features: %s, %s; GLib %u.%u, GSL %s\n",
-                     GB_WITH_PICTURES ? "pictures" : "no pictures",
-                     GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version,
+    gb_visible_print(stdout, "features: %s; GLib %u.%u, GSL %s\n",
+                     GB_WITH_PICTURES ? "pictures" : "no pictures", glib_major_version,
                      glib_minor_version, gsl_version);
     gb_visible_print(stdout, "threads: %u, vectors: %d bits (%s)\n",
                      g_get_num_processors(), gb_simd_width(0),

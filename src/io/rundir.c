@@ -2,9 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <sched.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,49 +12,16 @@
 #include "io/rundir_files.h"
 #include "io/status/status_json.h"
 
-static int open_directory(const char *path)
-{
-    return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-}
+static const char lock_name[] = ".lock";
 
-/* Does another process hold the lock?  Those that ask share the lock for a moment, which
- * is no writer to others that ask.  File systems without such locks (some network
- * ones) lose only the protection against two writers. */
-static bool has_writer(int fd)
-{
-    const bool writer = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (!writer) {
-        (void)flock(fd, LOCK_UN);
-    }
-    return writer;
-}
-
-/* Opens path and locks it; -1 with errno, EWOULDBLOCK when another process holds the lock.
- * Those that only ask hold it for a moment, and are waited for. */
-static int lock_directory(const char *path)
-{
-    const int fd = open_directory(path);
-    while (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        if (has_writer(fd)) {
-            close(fd);
-            errno = EWOULDBLOCK;
-            return -1;
-        }
-        (void)sched_yield();
-    }
-    return fd;
-}
-
-/* Opens and locks dir->path as lock_directory does, and keeps the lock. */
+/* Locks dir->path and keeps the lock. */
 static bool hold(struct gb_rundir *dir)
 {
     struct stat info;
-    dir->lock = lock_directory(dir->path);
-    if (dir->lock < 0) {
+    if (!gb_lock_take(&dir->lock, dir->path, lock_name)) {
         return false;
     }
-    dir->process = getpid();
-    dir->held = g_strdup_printf("/proc/self/fd/%d", dir->lock);
+    dir->held = g_strdup_printf("/proc/self/fd/%d", dir->lock.folder);
     if (stat(dir->held, &info) != 0) { /* no such file system here */
         g_free(dir->held);
         dir->held = g_strdup(dir->path);
@@ -182,7 +147,7 @@ static void sync_names(const char *full, const char *above)
     char *at = g_strdup(full);
     while (strcmp(at, above) != 0 && at[1] != '\0') {
         char *up = g_path_get_dirname(at);
-        const int fd = open_directory(up);
+        const int fd = open(up, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (fd >= 0) {
             (void)fsync(fd); /* some file systems cannot */
             close(fd);
@@ -226,7 +191,7 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode
     if (!gb_rundir_check(path, mode, err)) {
         return false;
     }
-    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = -1};
+    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = GB_LOCK_NONE};
     if (!g_file_test(path, G_FILE_TEST_IS_DIR) && !make_missing(dir, err)) {
         goto fail;
     }
@@ -250,12 +215,7 @@ fail:
 
 bool gb_rundir_busy(const char *path)
 {
-    const int fd = open_directory(path);
-    const bool busy = fd >= 0 && has_writer(fd);
-    if (fd >= 0) {
-        close(fd);
-    }
-    return busy;
+    return gb_lock_is_held(path, lock_name);
 }
 
 bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err)
@@ -268,7 +228,7 @@ bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *er
         return gb_error_set(err, GB_ERR_INPUT,
                             "%s: no run directory, it has no preset.ini", path);
     }
-    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = -1};
+    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = GB_LOCK_NONE};
     if (hold(dir)) {
         return true;
     }
@@ -284,7 +244,7 @@ bool gb_rundir_check_identity(const struct gb_rundir *dir, struct gb_error *err)
 {
     struct stat ours;
     struct stat named;
-    return (fstat(dir->lock, &ours) == 0 && stat(dir->path, &named) == 0 &&
+    return (fstat(dir->lock.folder, &ours) == 0 && stat(dir->path, &named) == 0 &&
             ours.st_dev == named.st_dev && ours.st_ino == named.st_ino) ||
            gb_error_set(err, GB_ERR_MACHINE,
                         "%s: was moved or removed while the run wrote there", dir->path);
@@ -301,23 +261,24 @@ bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *e
     return false;
 }
 
+char *gb_rundir_holder(const char *path)
+{
+    return gb_lock_holder(path, lock_name);
+}
+
 void gb_rundir_finish(struct gb_rundir *dir)
 {
-    if (dir->lock >= 0) {
-        if (dir->process == getpid()) { /* children that have inherited it keep no lock */
-            (void)flock(dir->lock, LOCK_UN);
-        }
-        close(dir->lock);
-    }
+    gb_lock_release(&dir->lock);
     g_free(dir->made);
     g_free(dir->held);
     g_free(dir->path);
-    *dir = (struct gb_rundir){.lock = -1};
+    *dir = GB_RUNDIR_NONE;
 }
 
 void gb_rundir_remove(struct gb_rundir *dir)
 {
     (void)gb_rundir_files_remove(dir->held, NULL);
+    gb_lock_release(&dir->lock);
     if (dir->made != NULL) {
         remove_made(dir->path, dir->made);
     }

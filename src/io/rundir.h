@@ -2,22 +2,19 @@
 #define GB_IO_RUNDIR_H
 
 #include <stdbool.h>
-#include <sys/types.h>
 
-#include <glib.h>
-
+#include "base/lock.h"
 #include "greenbody/status.h"
 
 /* The directory of a run: checked, made, locked, removed.  io/store.h writes its files. */
 struct gb_rundir {
     char *path;
     char *made; /* topmost directory that was created for it, NULL when path existed */
-    int lock;   /* open directory, locked as long as the run is written */
-    pid_t
-        process; /* that has locked it; a child of it shares the lock and leaves it alone */
-    char *held; /* path through the open lock (/proc/self/fd): valid even after the
+    struct gb_lock lock; /* as long as the run is written */
+    char *held; /* path through the open directory (/proc/self/fd): valid even after the
                    directory was renamed.  Systems without it: path */
 };
+#define GB_RUNDIR_NONE ((struct gb_rundir){.lock = GB_LOCK_NONE})
 
 enum gb_rundir_mode {
     GB_RUNDIR_KEEP,    /* an existing run is an error */
@@ -52,6 +49,8 @@ bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *e
 
 /* Is a process writing there now? */
 bool gb_rundir_busy(const char *path);
+/* Which one, for people; see gb_lock_holder. */
+char *gb_rundir_holder(const char *path);
 
 /* Ends the lock and frees; the directory stays. */
 void gb_rundir_finish(struct gb_rundir *dir);

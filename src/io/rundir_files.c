@@ -102,6 +102,9 @@ static char *first_foreign(const char *path, bool (*known)(const char *name),
     char *foreign = NULL;
     const char *name;
     while (foreign == NULL && (name = g_dir_read_name(dir)) != NULL) {
+        if (strcmp(name, ".lock") == 0) { /* of rundir.c; it says nothing of a run */
+            continue;
+        }
         char *full = g_build_filename(path, name, NULL);
         (*entries)++;
         if (known == is_known_name && strcmp(name, snapshot_folder) == 0 &&

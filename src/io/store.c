@@ -189,7 +189,7 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
     store->curve.fd = store->events.fd = -1;
     store->columns = gb_loading_kind_of(params)->columns;
     store->dir = *dir;
-    *dir = (struct gb_rundir){.lock = -1};
+    *dir = GB_RUNDIR_NONE;
     name_files(store);
     bool done;
     if (extent == NULL) {

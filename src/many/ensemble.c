@@ -7,6 +7,7 @@
 #include <glib/gstdio.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "io/rundir.h"
 #include "many/single_run.h"
 #include "run/cost.h"
@@ -14,6 +15,8 @@
 
 /* Longest time between two calls of callbacks->cancelled. */
 static const double poll_s = 0.2;
+/* Callers are told what is waited for after that time. */
+static const double patience_s = 60.0;
 
 bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replicas,
                       struct gb_error *err)
@@ -69,6 +72,16 @@ static bool other_error(const struct gb_ensemble_run *run, struct gb_error *err)
                         run->directory);
 }
 
+/* When the status of a run was written; 0: there is none. */
+static int64_t status_time(const struct gb_ensemble_run *run)
+{
+    char *path = g_build_filename(run->directory, "status.json", NULL);
+    GStatBuf info = {0};
+    const bool there = g_stat(path, &info) == 0;
+    g_free(path);
+    return there ? (int64_t)info.st_mtim.tv_sec * 1000000000 + info.st_mtim.tv_nsec : 0;
+}
+
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
 {
     for (size_t i = 0; i < ensemble->points; i++) {
@@ -81,6 +94,7 @@ bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
         if (!g_file_test(run->directory, G_FILE_TEST_EXISTS)) {
             continue;
         }
+        run->status_ns = status_time(run);
         const bool busy = gb_rundir_busy(run->directory);
         const enum gb_single_run_found found =
             gb_single_run_find(&run->params, run->directory);
@@ -101,9 +115,10 @@ static bool has_converged(const struct gb_ensemble *ensemble, size_t point)
            ensemble->converged(ensemble, point, ensemble->data);
 }
 
-/* Runs to be submitted: their number, and an index that none of them precedes. */
+/* Runs to be submitted: none has a smaller index. */
 struct queue {
-    size_t from, waiting;
+    size_t from;
+    double idle_since; /* clock; 0: runs are under way here */
 };
 
 /* Whether this process has to do a run, after a look at what others have made of it.  In
@@ -116,6 +131,7 @@ static bool is_left(struct gb_ensemble_run *run)
     }
     switch (gb_single_run_find(&run->params, run->directory)) {
     case GB_SINGLE_RUN_DONE:
+        run->error = (struct gb_error){0};
         run->before = run->ended = true;
         return false;
     case GB_SINGLE_RUN_OTHER:
@@ -125,7 +141,15 @@ static bool is_left(struct gb_ensemble_run *run)
     case GB_SINGLE_RUN_NOT_DONE:
         break;
     }
-    return true;
+    /* it fails here as well: a second try is for the next command */
+    run->before = run->ended = status_time(run) != run->status_ns &&
+                               gb_single_run_failed(run->directory, &run->error);
+    return !run->ended;
+}
+
+static bool is_of_part(const struct gb_ensemble *ensemble, size_t index)
+{
+    return ensemble->parts == 0 || index % ensemble->parts == ensemble->part;
 }
 
 /* The next run, in the order of the list; NULL when there is none now. */
@@ -135,7 +159,7 @@ static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct que
     for (; queue->from < runs; queue->from++) {
         struct gb_ensemble_run *run = &ensemble->run[queue->from];
         if (!run->ended && !run->submitted && !run->elsewhere &&
-            !has_converged(ensemble, run->point)) {
+            is_of_part(ensemble, queue->from) && !has_converged(ensemble, run->point)) {
             return run;
         }
     }
@@ -144,12 +168,10 @@ static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct que
 
 /* Runs that can be submitted now.  Nothing is prefetched where the runs under way may be
  * enough. */
-static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *pool,
-                   size_t waiting)
+static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *pool)
 {
     const size_t idle = gb_pool_idle(pool);
-    return idle > 0 || ensemble->converged != NULL ? idle
-                                                   : gb_pool_prefetch(pool, waiting);
+    return idle > 0 || ensemble->converged != NULL ? idle : gb_pool_prefetch(pool);
 }
 
 static void tell(const struct gb_ensemble *ensemble,
@@ -167,11 +189,9 @@ static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
                    struct gb_error *err)
 {
     struct gb_ensemble_run *run = NULL;
-    while (room(ensemble, pool, queue->waiting) > 0 &&
-           (run = next_run(ensemble, queue)) != NULL) {
+    while (room(ensemble, pool) > 0 && (run = next_run(ensemble, queue)) != NULL) {
         const size_t ticket = (size_t)(run - ensemble->run);
         if (!is_left(run)) {
-            queue->waiting--;
             tell(ensemble, callbacks, run->ended ? run : NULL);
             continue;
         }
@@ -179,7 +199,6 @@ static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
             return gb_pool_busy(pool) > 0; /* with fewer workers then */
         }
         run->submitted = true;
-        queue->waiting--;
     }
     return true;
 }
@@ -190,23 +209,44 @@ static void put_back(const struct gb_ensemble *ensemble, struct queue *queue,
 {
     run->submitted = run->elsewhere = false;
     queue->from = MIN(queue->from, (size_t)(run - ensemble->run));
-    queue->waiting++;
 }
 
-/* Looks again at the runs of other processes; the number of those still waited for. */
-static size_t follow(struct gb_ensemble *ensemble, struct queue *queue)
+/* Puts back the runs that other processes do no more. */
+static void follow(struct gb_ensemble *ensemble, struct queue *queue)
 {
-    size_t waited_for = 0;
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         struct gb_ensemble_run *run = &ensemble->run[i];
-        if (run->elsewhere && !has_converged(ensemble, run->point)) {
-            waited_for++;
-            if (!gb_rundir_busy(run->directory)) {
-                put_back(ensemble, queue, run);
-            }
+        if (run->elsewhere && !gb_rundir_busy(run->directory)) {
+            put_back(ensemble, queue, run);
         }
     }
-    return waited_for;
+}
+
+/* Is there a run of other processes to be waited for?  Tells what is waited for too long. */
+static bool waits(struct gb_ensemble *ensemble, struct queue *queue,
+                  const struct gb_pool *pool,
+                  const struct gb_ensemble_callbacks *callbacks)
+{
+    const double limit_s =
+        callbacks->patience_s > 0.0 ? callbacks->patience_s : patience_s;
+    const double now = gb_clock_s();
+    bool any = false;
+    if (gb_pool_busy(pool) > 0 || queue->idle_since == 0.0) {
+        queue->idle_since = now;
+    }
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        struct gb_ensemble_run *run = &ensemble->run[i];
+        if (!run->elsewhere || has_converged(ensemble, run->point)) {
+            continue;
+        }
+        any = true;
+        if (!run->named && now - queue->idle_since > limit_s &&
+            callbacks->on_wait != NULL) {
+            run->named = true;
+            callbacks->on_wait(run, callbacks->data);
+        }
+    }
+    return any && !ensemble->leaves;
 }
 
 static void receive(struct gb_ensemble *ensemble, struct gb_pool *pool,
@@ -218,7 +258,7 @@ static void receive(struct gb_ensemble *ensemble, struct gb_pool *pool,
         return;
     }
     struct gb_ensemble_run *run = &ensemble->run[report.ticket];
-    if (report.lost || gb_single_run_is_taken(&report.error)) {
+    if (gb_single_run_is_taken(&report.error)) {
         put_back(ensemble, queue, run);
         tell(ensemble, callbacks, NULL);
         return;
@@ -235,18 +275,19 @@ bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
     struct queue queue = {0};
     bool stopping = false;
     bool good = true;
-    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
-        queue.waiting += !ensemble->run[i].ended;
-    }
     while (true) {
         if (!stopping && callbacks->cancelled != NULL &&
             callbacks->cancelled(callbacks->data)) {
             stopping = true;
             gb_pool_stop(pool);
         }
-        const bool waits = good && !stopping && follow(ensemble, &queue) > 0;
-        good = good && (stopping || submit(ensemble, pool, &queue, callbacks, err));
-        if (gb_pool_busy(pool) == 0 && !waits) {
+        if (good && !stopping) {
+            follow(ensemble, &queue);
+            good = submit(ensemble, pool, &queue, callbacks, err);
+        }
+        const bool waiting =
+            good && !stopping && waits(ensemble, &queue, pool, callbacks);
+        if (gb_pool_busy(pool) == 0 && !waiting) {
             break;
         }
         receive(ensemble, pool, &queue, callbacks);
@@ -254,6 +295,30 @@ bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
     return good && (!stopping || gb_error_set(err, GB_ERR_CANCELLED,
                                               "stopped; the same command does the "
                                               "missing runs"));
+}
+
+size_t gb_ensemble_refresh(struct gb_ensemble *ensemble)
+{
+    size_t elsewhere = 0;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        struct gb_ensemble_run *run = &ensemble->run[i];
+        if (run->ended && run->error.code == GB_OK) {
+            run->elsewhere = false;
+            continue;
+        }
+        const struct gb_ensemble_run own = *run;
+        const bool left = is_left(run);
+        elsewhere += run->elsewhere;
+        if (run->elsewhere) {
+            continue;
+        }
+        if (own.ended && (left || run->error.code != GB_OK)) {
+            *run = own; /* it failed here, and no other process has done it since */
+        } else if (left) {
+            run->before = run->ended = gb_single_run_failed(run->directory, &run->error);
+        }
+    }
+    return elsewhere;
 }
 
 bool gb_ensemble_make_directory(const char *path, struct gb_error *err)

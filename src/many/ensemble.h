@@ -17,7 +17,9 @@ struct gb_ensemble_run {
     char *directory;
     bool submitted, ended; /* to a worker; by it, or by an earlier command */
     bool before;           /* ended by another command, earlier or meanwhile */
-    bool elsewhere;        /* another process does it; waited for */
+    bool elsewhere;        /* another process does it */
+    bool named;            /* on_wait was called for it */
+    int64_t status_ns;     /* of its status.json when it was first looked at; 0: none */
     struct gb_error error; /* once ended; GB_OK: all stages of loading are done */
     double seconds;
 };
@@ -30,6 +32,10 @@ struct gb_ensemble {
      * only, so that it is the same for any number of workers. */
     bool (*converged)(const struct gb_ensemble *ensemble, size_t point, void *data);
     void *data;
+    bool leaves; /* runs that other processes do are left to them, not waited for */
+    /* Part `part` of `parts`, from 0: runs whose place in the list is that modulo parts; 0
+     * parts: all runs. */
+    size_t part, parts;
 };
 
 /* Room for points x replicas runs; the caller fills params and directory.
@@ -54,18 +60,29 @@ struct gb_ensemble_callbacks {
     void (*progress)(const struct gb_ensemble *ensemble,
                      const struct gb_ensemble_run *run,
                      void *data); /* run has ended; NULL: none has since the last call */
+    /* Called once for a run of another process that is waited for since a minute, while
+     * there is nothing else to do. */
+    void (*on_wait)(const struct gb_ensemble_run *run, void *data);
     void *data;
+    double patience_s; /* in place of that minute; 0: the minute */
 };
 
-/* Does the runs that have not ended.  One that fails is marked; the others continue.  Those
- * that another process does, or has done since, are not done twice: it ends when they have
- * ended there, and does the ones that were left unfinished.
+/* Does the runs of its part that have not ended.  One that fails is marked; the others
+ * continue.  A run belongs to the process that holds the lock of its directory.  Those that
+ * another process does, or has done or failed to do since gb_ensemble_find_done, are not
+ * done twice.  It ends when they have ended there, and does the ones that were left
+ * unfinished; an ensemble that `leaves` ends as soon as it has nothing to do itself.
  *
  * Errors: GB_ERR_CANCELLED (the runs under way have stopped), GB_ERR_MACHINE when no
  * worker can be started at all. */
 bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
                       const struct gb_ensemble_callbacks *callbacks,
                       struct gb_error *err);
+
+/* Looks again at the runs that are not known to be done: those that others have done, or
+ * that failed with a status, have ended.  Returns the number that other processes do now.
+ * Before tables are written. */
+size_t gb_ensemble_refresh(struct gb_ensemble *ensemble);
 
 /* Makes a directory for runs.  Errors: GB_ERR_INPUT (it is a single run, or a file),
  * GB_ERR_MACHINE. */

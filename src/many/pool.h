@@ -11,7 +11,6 @@
  * process takes its place; libraries without support of threads (HDF5) run in one thread.
  * The caller must not have started threads: its state is copied by fork. */
 struct gb_pool;
-struct gb_mpi_pool;
 
 /* Callbacks of a run; NULL members are not called. */
 struct gb_pool_callbacks {
@@ -30,25 +29,18 @@ struct gb_pool_report {
     size_t ticket;
     struct gb_error error; /* GB_OK: done; a process that died is GB_ERR_MACHINE */
     double seconds;        /* since it was submitted */
-    bool lost;             /* the rank that did it is gone: to be submitted again */
 };
 
-/* A pool of local workers, and of those of the other MPI ranks (NULL: none; owned by the
- * caller). */
 bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
-                    struct gb_mpi_pool *mpi, struct gb_error *err);
+                    struct gb_error *err);
 /* Stops the runs under way and waits for them.  NULL is fine. */
 void gb_pool_destroy(struct gb_pool *pool);
 
-/* Time to wait for a local report between two looks at messages of other ranks, s. */
-double gb_pool_poll_interval(const struct gb_pool *pool);
-
 /* Workers without a run. */
 size_t gb_pool_idle(const struct gb_pool *pool);
-/* Runs that may be submitted although no worker is idle: one beside each run that only
- * writes its files, and the next one of each worker of other ranks, while more runs wait
- * than there are workers. */
-size_t gb_pool_prefetch(const struct gb_pool *pool, size_t waiting);
+/* Runs that may be submitted although no worker is idle: one for each run that only writes
+ * its files. */
+size_t gb_pool_prefetch(const struct gb_pool *pool);
 /* Runs that were submitted and not yet reported. */
 size_t gb_pool_busy(const struct gb_pool *pool);
 

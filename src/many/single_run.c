@@ -4,11 +4,14 @@
 
 #include <glib.h>
 
+#include "io/follow.h"
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/status/status_json.h"
 #include "many/runset.h"
 #include "run/run_loop.h"
+
+static const char stopped_text[] = "stopped on request";
 
 struct single_run {
     struct gb_run_loop loop;
@@ -24,8 +27,7 @@ static bool is_cancelled(void *data)
 
 static bool may_continue(void *data, struct gb_error *err)
 {
-    return !is_cancelled(data) ||
-           gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+    return !is_cancelled(data) || gb_error_set(err, GB_ERR_CANCELLED, "%s", stopped_text);
 }
 
 static void on_end(void *data)
@@ -40,7 +42,7 @@ static void on_end(void *data)
 static const char taken_text[] = "another process does this run or has done it";
 
 /* Times that a directory is tried in which other processes begin and end runs. */
-enum { TRIES = 3 };
+enum { TRIES = 10 };
 
 /* Locks the directory before the packing is built, so that another process leaves the run
  * alone and does another one. */
@@ -69,8 +71,14 @@ static bool begin(struct single_run *run, const struct gb_params *params,
         return false;
     }
     if (!gb_experiment_create(&experiment, params, is_cancelled, run, err)) {
-        gb_run_recorder_discard(run->loop.recorder);
-        run->loop.recorder = NULL;
+        /* a scene that fails stays, with its status: other processes do not try it again */
+        const bool of_scene = err->code == GB_ERR_GUARD ||
+                              err->code == GB_ERR_NOT_CONVERGED ||
+                              err->code == GB_ERR_INPUT;
+        if (mode != GB_RUNDIR_MISSING || !of_scene) {
+            gb_run_recorder_discard(run->loop.recorder);
+            run->loop.recorder = NULL;
+        }
         return false;
     }
     gb_run_loop_attach(&run->loop, experiment);
@@ -110,6 +118,20 @@ bool gb_single_run_missing(const struct gb_params *params, const char *directory
 bool gb_single_run_is_taken(const struct gb_error *error)
 {
     return error->code == GB_ERR_INPUT && strcmp(error->text, taken_text) == 0;
+}
+
+bool gb_single_run_failed(const char *directory, struct gb_error *error)
+{
+    struct gb_snapshot shot = {0};
+    struct gb_follow_engine engine;
+    struct gb_error ignored;
+    if (!gb_follow_status(directory, &shot, &engine, &ignored) ||
+        (shot.state != GB_RUN_FAILED && shot.state != GB_RUN_STOPPED) ||
+        shot.error.text[0] == '\0' || strcmp(shot.error.text, stopped_text) == 0) {
+        return false;
+    }
+    (void)gb_error_set(error, GB_ERR_GUARD, "%s", shot.error.text);
+    return true;
 }
 
 enum gb_single_run_found gb_single_run_find(const struct gb_params *params,

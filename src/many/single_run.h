@@ -25,6 +25,10 @@ bool gb_single_run_missing(const struct gb_params *params, const char *directory
                            struct gb_error *err);
 bool gb_single_run_is_taken(const struct gb_error *error);
 
+/* Does status.json tell of a run that its scene has ended, not a signal?  Then the error is
+ * that one, as GB_ERR_GUARD. */
+bool gb_single_run_failed(const char *directory, struct gb_error *error);
+
 enum gb_single_run_found {
     GB_SINGLE_RUN_DONE,
     GB_SINGLE_RUN_NOT_DONE, /* a run that was not finished, or no preset to be read */

@@ -182,7 +182,6 @@ bool gb_worker_receive(struct gb_worker *worker, struct gb_pool_report *report)
         return false;
     }
     report->ticket = worker->ticket;
-    report->lost = false;
     report->seconds = gb_clock_s() - worker->since;
     worker->busy = false;
     worker->writing = false;

@@ -93,7 +93,7 @@ static bool verify_locked(struct gb_verify *verify, const char *directory,
 bool gb_verify_run(struct gb_verify *verify, const char *directory,
                    bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
-    struct gb_rundir dir = {.lock = -1};
+    struct gb_rundir dir = GB_RUNDIR_NONE;
     *verify = (struct gb_verify){0};
     if (!gb_rundir_open(&dir, directory, err)) {
         return false;

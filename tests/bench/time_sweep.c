@@ -1,8 +1,8 @@
 /* What a sweep of tiny cells costs beside what the cells themselves cost.
  * Usage: time_sweep GREENBODY [RUNS [PARTICLES]]
  * The same cells are pressed here, without files, and by `greenbody sweep` with one
- * worker, one per processor, and under `mpirun -np 2`, block after block, so that a busy
- * machine meets all of them alike.  Prints processor and elapsed time; overhead is of the
+ * worker and with one per processor, block after block, so that a busy machine meets all of
+ * them alike.  Prints processor and elapsed time; overhead is of the
  * former.
  */
 #include <stdio.h>
@@ -148,13 +148,6 @@ static double sweep(const struct method *method, const char *greenbody,
     return cpu_s;
 }
 
-static bool has_mpirun(void)
-{
-    char *path = g_find_program_in_path("mpirun");
-    g_free(path);
-    return path != NULL;
-}
-
 int main(int argc, char **argv)
 {
     static struct method methods[] = {
@@ -163,10 +156,7 @@ int main(int argc, char **argv)
         {.name = "one process, --jobs 1", .words = {"env", NULL}, .jobs = "--jobs=1"},
         {.name = "one process, all processors",
          .words = {"env", NULL},
-         .jobs = "--jobs=0"},
-        {.name = "mpirun -np 2",
-         .words = {"mpirun", "--oversubscribe", "--allow-run-as-root", "-np", "2", NULL},
-         .jobs = "--jobs=1"}};
+         .jobs = "--jobs=0"}};
     const int runs = argc > 2 ? atoi(argv[2]) : RUNS;
     const int block = MIN(runs, BLOCK);
     char *folder = g_dir_make_tmp("time_sweep-XXXXXX", NULL);
@@ -175,7 +165,7 @@ int main(int argc, char **argv)
     }
     char *particles = argc > 3 ? g_strdup(argv[3]) : g_strdup_printf("%d", PARTICLES);
     const struct gb_params params = cell(particles);
-    const size_t count = G_N_ELEMENTS(methods) - !has_mpirun();
+    const size_t count = G_N_ELEMENTS(methods);
     for (int first = 1; first + block - 1 <= runs; first += block) {
         for (size_t w = 0; w < count; w++) {
             struct method *method = &methods[w];

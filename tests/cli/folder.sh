@@ -40,8 +40,8 @@ is() { # name, command...: good when the command succeeds
 # No run of a directory is under way: workers whose parent was killed stop by themselves.
 none_works() { # directory
     # shellcheck disable=SC2044  # names without blanks
-    for folder in $(find "$1" -type d); do
-        flock -n "$folder" true || return 1
+    for lock in $(find "$1" -name .lock); do
+        flock -n "$lock" true || return 1
     done
     ! grep -rqs --include=status.json '"state" : "running"' "$1"
 }

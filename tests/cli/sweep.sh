@@ -182,7 +182,7 @@ kill -KILL $pid
 ended $pid 2>/dev/null
 is 'SIGKILL: the workers stop by themselves' until_true none_works killed
 
-# --- two at once in one directory --------------------------------------------------------
+# --- several at once in one directory --------------------------------------------------------
 # Runs of half a second, so that one can be met; tried again where it was not.
 shared() { # more arguments; in place of its shell, so that $! is the sweep itself
     exec "$greenbody" sweep p1-nobridge-38nm particles.count=300 structure.base=auto \
@@ -210,7 +210,7 @@ meet() {
         worker=$(cat /proc/$first/task/$first/children 2>/dev/null)
         worker=${worker%% *}
         if [ -n "$worker" ] && kill -STOP "$worker" && until_true stands &&
-            ! flock -n shared/mu-0.1_seed-1 true; then
+            [ -e shared/mu-0.1_seed-1/.lock ] && ! flock -n shared/mu-0.1_seed-1/.lock true; then
             return
         fi
         kill -CONT "$worker" 2>/dev/null
@@ -218,32 +218,88 @@ meet() {
     done
 }
 
+# Of the sweep that met the standing worker, which holds a run.
+first_writes() { # name
+    kill -CONT "$worker"
+    ended $first
+    is "$1: the first ends with status 0" [ $? -eq 0 ]
+    is "$1: and writes the table of one" cmp alone/sweep.csv shared/sweep.csv
+    is "$1: and its list" cmp alone/runs.csv shared/runs.csv
+}
+
 (shared --out alone) >stdout 2>stderr
 meet
-shared --jobs 1 --out shared >stdout 2>stderr &
-second=$!
-is 'a second sweep does the runs that are left' until_true is_done shared/mu-0.1_seed-2 \
-    shared/mu-0.3_seed-1 shared/mu-0.3_seed-2
-is 'and waits for the one under way' kill -0 $second
-is 'which it leaves alone' [ ! -e shared/sweep.csv ]
-kill -CONT "$worker"
-ended $first
-is 'the first ends with status 0' [ $? -eq 0 ]
-ended $second
-is 'and the second' [ $? -eq 0 ]
-is 'with the table of one' cmp alone/sweep.csv shared/sweep.csv
-is 'and its list' cmp alone/runs.csv shared/runs.csv
+(shared --jobs 1 --out shared) >stdout 2>stderr
+is 'a second sweep ends with status 0' [ $? -eq 0 ]
+is 'having done the runs that are left' is_done shared/mu-0.1_seed-2 shared/mu-0.3_seed-1 \
+    shared/mu-0.3_seed-2
+is 'says who holds the other' \
+    grep -q "^nothing left to do here.*mu-0.1_seed-1 (process $worker on " stderr
+is 'and leaves the tables to it' [ ! -e shared/sweep.csv ]
+(shared --jobs 1 --collect --out shared) >stdout 2>stderr
+is 'collected meanwhile, one is missing' [ $? -eq 1 ]
+is 'and is listed' [ "$(grep -c ',missing,$' shared/runs.csv)" -eq 1 ]
+first_writes 'a run held'
 
 meet
-shared --jobs 1 --out shared >stdout 2>stderr &
-second=$!
-until_true is_done shared/mu-0.3_seed-2
 kill -KILL $first "$worker"
 ended $first 2>/dev/null
-ended $second
-is 'what a killed one leaves is done by the other' [ $? -eq 0 ]
+(shared --jobs 1 --out shared) >stdout 2>stderr
+is 'what a killed one leaves is done by the next' [ $? -eq 0 ]
 is 'with the same table' cmp alone/sweep.csv shared/sweep.csv
 
+# With an error to be reached all wait.
+meet
+shared --jobs 1 --until-se 0.9@5MPa --out shared >stdout 2>stderr &
+second=$!
+until_true is_done shared/mu-0.3_seed-2
+is 'with --until-se the second waits' kill -0 $second
+kill -CONT "$worker"
+ended $second
+is 'and ends with status 0' [ $? -eq 0 ]
+is 'and the table' cmp alone/sweep.csv shared/sweep.csv
+ended $first
+
+# --- tasks, parts, tables ------------------------------------------------------------------
+export PATH="$here/bin:$PATH"
+mkdir bin
+ln -s "$greenbody" bin/greenbody
+rm -rf shared
+(shared --tasks --out shared) >tasks 2>stderr
+is 'a task for each run' [ "$(grep -c '^greenbody sweep .* --part [1-4]/4$' tasks)" -eq 4 ]
+is 'which does nothing yet' [ ! -e shared ]
+tr '\n' '\0' <tasks | in_patience xargs -0 -P 2 -n 1 sh -c >stdout 2>stderr
+is 'tasks end with status 0' [ $? -eq 0 ]
+is 'without tables' [ ! -e shared/sweep.csv ]
+(shared --tasks --out shared) >tasks 2>stderr
+is 'what is done needs no task' [ ! -s tasks ]
+(shared --collect --out shared) >stdout 2>stderr
+is 'collected' [ $? -eq 0 ]
+is 'they have the table of one process' cmp alone/sweep.csv shared/sweep.csv
+is 'and its list' cmp alone/runs.csv shared/runs.csv
+rm -rf shared
+(shared --part 2/3 --out shared) >stdout 2>stderr
+is 'a part does its runs only' [ "$(echo shared/*)" = shared/mu-0.3_seed-1 ]
+failing() { # more arguments
+    "$greenbody" sweep p1-nobridge-38nm particles.count=100 structure.base=auto \
+        'loading.until=5 MPa' loading.unload_from= --vary 'contact.mu=0.1;0.3' --replicas 2 \
+        --set numerics.max_evaluations=1 --set numerics.tolerance=1e-12 "$@" \
+        >stdout 2>stderr
+}
+failing --out failed
+failing --part 1/2 --out parts
+is 'a part with failed runs has status 1' [ $? -eq 1 ]
+failing --part 2/2 --out parts
+failing --collect --out parts
+is 'so has what is collected' [ $? -eq 1 ]
+is 'with the errors of one process' cmp failed/runs.csv parts/runs.csv
+for word in '--tasks --until-se 0.1@5MPa' '--part 1/2 --until-se 0.1@5MPa' '--part 0/2' \
+    '--part 3/2' '--part 1' '--part 1/2/3' '--part -1/2' '--part 1/2 --collect' '--tasks --collect'; do
+    # shellcheck disable=SC2086  # words
+    refused "sweep $word" "$greenbody" sweep default --replicas 4 $word --out out
+done
+
+# --- from the start --------------------------------------------------------------------------
 rm -rf shared
 shared --jobs 2 --out shared >/dev/null 2>first.err &
 first=$!
@@ -251,7 +307,7 @@ first=$!
 is 'two from the start' [ $? -eq 0 ]
 ended $first
 is 'both' [ $? -eq 0 ]
-is 'have the same table' cmp alone/sweep.csv shared/sweep.csv
+is 'make one table' cmp alone/sweep.csv shared/sweep.csv
 
 # --- wrong input -------------------------------------------------------------------------
 refused 'no --out' "$greenbody" sweep default

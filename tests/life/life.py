@@ -209,14 +209,17 @@ class Life:
 
     def _is_locked(self):
         """Whether an engine has begun to write there."""
-        directory = os.open(self.directory, os.O_RDONLY)
         try:
-            fcntl.flock(directory, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock = os.open(os.path.join(self.directory, '.lock'), os.O_RDONLY)
+        except FileNotFoundError:
+            return False
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
             return False
         except BlockingIOError:
             return True
         finally:
-            os.close(directory)
+            os.close(lock)
 
     def _stand(self, process):
         """Stopped in the middle, a run is its engine's alone; then it goes on."""

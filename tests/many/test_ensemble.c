@@ -1,11 +1,13 @@
 #include <math.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <glib.h>
 #include <glib/gstdio.h>
 
+#include "base/lock.h"
 #include "common/scene.h"
 #include "io/store.h"
 #include "many/ensemble.h"
@@ -130,7 +132,7 @@ static bool work(struct gb_ensemble *ensemble, size_t workers, gb_pool_work *how
     struct gb_pool *pool = NULL;
     static const struct gb_ensemble_callbacks no_callbacks = {0};
     g_assert_true(gb_ensemble_find_done(ensemble, err));
-    g_assert_true(gb_pool_create(&pool, workers, how, NULL, err));
+    g_assert_true(gb_pool_create(&pool, workers, how, err));
     const bool good =
         gb_ensemble_work(ensemble, pool, callbacks ? callbacks : &no_callbacks, err);
     gb_pool_destroy(pool);
@@ -576,6 +578,106 @@ static void test_enough(void)
     gb_axes_finish(&axes);
 }
 
+/* Another process that has the directory of a run, until it is killed. */
+static pid_t hold(const char *directory)
+{
+    int ready[2];
+    char sign;
+    g_assert_cmpint(g_mkdir_with_parents(directory, 0777), ==, 0);
+    g_assert_cmpint(pipe(ready), ==, 0);
+    const pid_t holder = fork();
+    if (holder == 0) {
+        struct gb_lock lock;
+        if (gb_lock_take(&lock, directory, ".lock")) {
+            (void)!write(ready[1], "y", 1);
+        }
+        while (true) {
+            pause();
+        }
+    }
+    g_assert_cmpint(read(ready[0], &sign, 1), ==, 1);
+    close(ready[0]);
+    close(ready[1]);
+    return holder;
+}
+
+static void end(pid_t holder)
+{
+    g_assert_cmpint(kill(holder, SIGKILL), ==, 0);
+    g_assert_cmpint(waitpid(holder, NULL, 0), ==, holder);
+}
+
+struct waiting {
+    pid_t holder;
+    int calls;
+    const struct gb_ensemble_run *run;
+};
+
+/* The wait is over when it was told. */
+static void on_wait(const struct gb_ensemble_run *run, void *data)
+{
+    struct waiting *waiting = data;
+    waiting->calls++;
+    waiting->run = run;
+    end(waiting->holder);
+}
+
+/* A run that another process holds is waited for, told once, and done when that one is
+ * gone; an ensemble that leaves ends without it. */
+static void test_elsewhere(void)
+{
+    struct gb_axes axes = {0};
+    struct gb_ensemble ensemble;
+    struct gb_error err = {0};
+    struct waiting waiting = {0};
+    const struct gb_ensemble_callbacks callbacks = {
+        .on_wait = on_wait, .data = &waiting, .patience_s = 0.1};
+    add(&axes, "contact.mu=0.1");
+    make(&ensemble, &axes, 3, "elsewhere");
+    waiting.holder = hold(ensemble.run[0].directory); /* all that is found at first */
+    ensemble.leaves = true;
+    g_assert_true(work(&ensemble, 2, stand_in, &callbacks, &err));
+    g_assert_cmpint(waiting.calls, ==, 0);
+    g_assert_true(ensemble.run[0].elsewhere && !ensemble.run[0].ended);
+    g_assert_cmpuint(gb_ensemble_refresh(&ensemble), ==, 1);
+    ensemble.leaves = false; /* nothing but that one is left */
+    g_assert_true(work(&ensemble, 2, stand_in, &callbacks, &err));
+    g_assert_cmpint(waiting.calls, ==, 1);
+    g_assert_true(waiting.run == &ensemble.run[0]);
+    g_assert_cmpuint(gb_ensemble_refresh(&ensemble), ==, 0);
+    for (int i = 0; i < 3; i++) {
+        g_assert_true(ensemble.run[i].ended && ensemble.run[i].error.code == GB_OK);
+    }
+    gb_ensemble_finish(&ensemble);
+    gb_axes_finish(&axes);
+}
+
+/* Parts have their runs only, each run is of one part. */
+static void test_parts(void)
+{
+    struct gb_axes axes = {0};
+    struct gb_error err = {0};
+    int ended[7] = {0};
+    add(&axes, "contact.mu=0.1");
+    for (size_t part = 0; part < 3; part++) {
+        struct gb_ensemble ensemble;
+        make(&ensemble, &axes, 7, "parts");
+        ensemble.part = part;
+        ensemble.parts = 3;
+        g_assert_true(work(&ensemble, 2, stand_in, NULL, &err));
+        for (size_t i = 0; i < 7; i++) {
+            const struct gb_ensemble_run *run = &ensemble.run[i];
+            g_assert_cmpint(run->ended, ==, run->before || i % 3 == part);
+            ended[i] += run->ended && !run->before;
+        }
+        gb_ensemble_finish(&ensemble);
+    }
+    for (size_t i = 0; i < 7; i++) {
+        g_assert_cmpint(ended[i], ==, 1);
+    }
+    gb_axes_finish(&axes);
+}
+
 static void test_pressures(void)
 {
     struct gb_sweep_table_pressures at;
@@ -628,6 +730,8 @@ int main(int argc, char **argv)
     g_test_add_func("/ensemble/cancel", test_cancel);
     g_test_add_func("/ensemble/keeping", test_keeping);
     g_test_add_func("/ensemble/enough", test_enough);
+    g_test_add_func("/ensemble/elsewhere", test_elsewhere);
+    g_test_add_func("/ensemble/parts", test_parts);
     const int status = g_test_run();
     remove_all(folder);
     g_free(folder);

@@ -149,7 +149,7 @@ static void clear(struct live_run *run)
 {
     struct gb_error err = {0};
     leave(run);
-    struct gb_rundir dir = {.lock = -1};
+    struct gb_rundir dir = GB_RUNDIR_NONE;
     g_assert_true(gb_rundir_open(&dir, run->directory, &err));
     gb_rundir_remove(&dir);
     g_rmdir(run->directory);

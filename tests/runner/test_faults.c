@@ -247,7 +247,7 @@ static char *read_text(const char *folder, const char *name)
 static void test_held(void)
 {
     struct run_to_move moved = run_to_move_make(REPLACED);
-    struct gb_rundir dir = {.lock = -1};
+    struct gb_rundir dir = GB_RUNDIR_NONE;
     struct gb_error err = {0};
     g_assert_true(gb_rundir_make(&dir, moved.run_dir.directory, GB_RUNDIR_KEEP, &err));
     char *path = g_build_filename(dir.held, "status.json", NULL);

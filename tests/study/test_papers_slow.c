@@ -55,7 +55,7 @@ static void compute(struct gb_papers_plan *plan)
     const struct gb_ensemble_callbacks none = {NULL, NULL, NULL};
     struct gb_pool *pool = NULL;
     struct gb_error err = {0};
-    if (!gb_pool_create(&pool, g_get_num_processors(), gb_single_run, NULL, &err) ||
+    if (!gb_pool_create(&pool, g_get_num_processors(), gb_single_run, &err) ||
         !gb_ensemble_work(&plan->ensemble, pool, &none, &err) ||
         !gb_ensemble_check(&plan->ensemble, plan->directory, &err)) {
         g_error("%s", err.text);

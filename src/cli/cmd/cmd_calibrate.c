@@ -22,19 +22,15 @@ struct request {
 
 struct command {
     const struct request *request;
-    struct gb_mpi_pool *mpi;
+    struct gb_batch_progress batch;
     struct gb_preset *preset;
     struct gb_calibration calibration;
 };
 
 static bool work(struct gb_ensemble *ensemble, void *data, struct gb_error *err)
 {
-    const struct command *command = data;
-    struct gb_batch_progress batch = {.mpi = command->mpi,
-                                      .output = command->request->quiet
-                                                    ? GB_BATCH_PROGRESS_QUIET
-                                                    : GB_BATCH_PROGRESS_RUNNING};
-    return gb_batch_progress_work(&batch, ensemble, command->request->jobs, err);
+    struct command *command = data;
+    return gb_batch_progress_work(&command->batch, ensemble, command->request->jobs, err);
 }
 
 static void print_round(const struct gb_calibration *calibration,
@@ -42,7 +38,7 @@ static void print_round(const struct gb_calibration *calibration,
                         const double *half_width, void *data)
 {
     const struct command *command = data;
-    if (command->request->quiet) {
+    if (command->batch.output != GB_BATCH_PROGRESS_RUNNING) {
         return;
     }
     gb_visible_print(stderr, "%s, round %d:",
@@ -101,14 +97,27 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
 
 static bool perform(struct command *command, char **words, struct gb_error *err)
 {
+    const struct request *request = command->request;
+    if (!gb_batch_progress_init(&command->batch, request->jobs, request->quiet, err)) {
+        return false;
+    }
+    const bool first = command->batch.launch.rank == 0;
+    if (command->batch.output == GB_BATCH_PROGRESS_ALL) {
+        command->batch.output = GB_BATCH_PROGRESS_RUNNING;
+    }
     if (!prepare(command, words, err) ||
         !gb_calibration_fit(&command->calibration, err)) {
         return false;
     }
+    struct gb_lock lock;
+    if (!gb_batch_progress_lock(&lock, request->out, request->quiet, err)) {
+        return false;
+    }
     const bool written =
         gb_calibration_table_write(&command->calibration, command->preset, err);
+    gb_lock_release(&lock);
     GString *text = gb_calibration_table_text(&command->calibration);
-    gb_visible_put(stdout, text->str);
+    gb_visible_put(stdout, first ? text->str : "");
     g_string_free(text, TRUE);
     return written;
 }
@@ -138,7 +147,6 @@ int gb_cmd_calibrate(int argc, char **argv)
 {
     struct request request = {.replicas = 4};
     struct command command = {.request = &request};
-    struct gb_batch_progress batch = {0};
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;
@@ -160,12 +168,8 @@ int gb_cmd_calibrate(int argc, char **argv)
     GOptionEntry *entries = gb_lab_input_entries(&request.lab, own);
     char *description = g_strconcat(about_file, gb_lab_input_help, example, NULL);
     const struct gb_options_page page = {usage, summary, description};
-    if (gb_options_parse(&page, entries, argc, argv, &words, &status) &&
-        gb_batch_progress_join(&batch, request.jobs, &status) ==
-            GB_BATCH_PROGRESS_FIRST) {
-        command.mpi = batch.mpi;
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         status = perform(&command, words, &err) ? 0 : gb_batch_progress_exit(&err);
-        gb_mpi_pool_destroy(batch.mpi);
     }
     gb_calibration_finish(&command.calibration);
     gb_preset_destroy(command.preset);

@@ -31,8 +31,8 @@ static bool check_range(const char *option, int value, int least, int most,
                         struct gb_error *err)
 {
     return value == 0 || (value >= least && value <= most) ||
-           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option, value,
-                        least, most);
+           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option,
+                        value, least, most);
 }
 
 static bool check_request(const struct request *request, char **words,
@@ -75,9 +75,8 @@ static void print_estimate(const struct command *command)
     size_t runs = 0;
     char total[48], cores[48];
     const double all_s = gb_papers_plan_remaining_s(&command->plan, &runs);
-    const size_t workers =
-        request->jobs > 0 ? (size_t)request->jobs : (size_t)g_get_num_processors();
-    if (runs > 0 && !request->quiet) {
+    const size_t workers = gb_batch_progress_all_workers(&command->batch, request->jobs);
+    if (runs > 0 && command->batch.output == GB_BATCH_PROGRESS_ALL) {
         gb_cost_duration(all_s, cores, sizeof cores);
         gb_cost_duration(all_s / (double)MIN(workers, runs), total, sizeof total);
         gb_visible_line(stderr, "estimated: about %s, %zu runs of %s of one core", total,
@@ -129,22 +128,27 @@ static bool perform(struct command *command, char **words, const char *line,
 {
     const struct request *request = command->request;
     struct gb_error stopped = {0};
-    command->batch.output =
-        request->quiet ? GB_BATCH_PROGRESS_QUIET : GB_BATCH_PROGRESS_ALL;
-    if (!prepare(command, words, err)) {
+    struct gb_lock lock;
+    if (!gb_batch_progress_init(&command->batch, request->jobs, request->quiet, err) ||
+        !prepare(command, words, err)) {
         return false;
     }
     command->batch.cost = command->plan.cost;
     print_estimate(command);
     const bool worked = gb_batch_progress_work(&command->batch, &command->plan.ensemble,
                                                request->jobs, &stopped);
-    if (!write_results(command, line, err)) {
+    if (!gb_batch_progress_lock(&lock, request->out, request->quiet, err)) {
+        return false;
+    }
+    const bool written = write_results(command, line, err);
+    gb_lock_release(&lock);
+    if (!written) {
         return false;
     }
     if (!worked) {
         return gb_error_set(err, stopped.code, "%s", stopped.text);
     }
-    if (!request->quiet) {
+    if (command->batch.output == GB_BATCH_PROGRESS_ALL) {
         gb_visible_line(stderr, "written to %s/papers.md", request->out);
     }
     return check_runs(command, err);
@@ -164,7 +168,7 @@ static char *describe_experiments(void)
     g_string_append(
         text,
         "\nRepeated, the command does the missing and the failed runs; finished ones are\n"
-        "kept.  Under mpirun the runs are shared by the ranks.\n\n"
+        "kept.  Several such commands in one directory share its runs.\n\n"
         "  greenbody papers --fast --out papers\n"
         "  greenbody papers --only P1-fig5,P2 --out papers");
     return g_string_free(text, FALSE);
@@ -198,11 +202,8 @@ int gb_cmd_papers(int argc, char **argv)
         "Every number that the papers print and that can be computed: runs what it needs,\n"
         "compares, and writes DIR/papers.md, DIR/papers.csv and the figures.",
         experiments};
-    if (gb_options_parse(&page, entries, argc, argv, &words, &status) &&
-        gb_batch_progress_join(&command.batch, request.jobs, &status) ==
-            GB_BATCH_PROGRESS_FIRST) {
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         status = perform(&command, words, line, &err) ? 0 : gb_batch_progress_exit(&err);
-        gb_mpi_pool_destroy(command.batch.mpi);
     }
     gb_papers_plan_finish(&command.plan);
     gb_papers_printed_finish(&command.numbers);

@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <glib.h>
 
@@ -14,12 +15,18 @@
 
 enum { REPLICAS_MAX = 100000 };
 
+/* What a shell leaves as it is. */
+static const char plain_signs[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                  "0123456789_./:=,@%+-";
+
 /* The options of the command line. */
 struct request {
     char **sets, **vary;
-    char *out, *at, *target, *design;
+    char *out, *at, *target, *design, *part;
     gint replicas, jobs;
-    gboolean quiet, yes;
+    gboolean quiet, yes, tasks, collect;
+    int argc; /* the words as typed, for --tasks */
+    char **argv;
 };
 
 struct command {
@@ -35,9 +42,40 @@ static bool check_request(const struct request *request, struct gb_error *err)
     if (request->out == NULL || request->out[0] == '\0') {
         return gb_error_set(err, GB_ERR_INPUT, "sweep needs --out DIR");
     }
+    if (request->tasks + request->collect + (request->part != NULL) > 1) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--tasks, --part and --collect: expected one of them");
+    }
+    if ((request->tasks || request->part != NULL) && request->target != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s with --until-se: expected all replicas; which ones are "
+                            "needed is known only while they are done",
+                            request->tasks ? "--tasks" : "--part");
+    }
     return (request->replicas >= 1 && request->replicas <= REPLICAS_MAX) ||
            gb_error_set(err, GB_ERR_INPUT, "--replicas %d: must be between 1 and %d",
                         request->replicas, REPLICAS_MAX);
+}
+
+/* "3/8" as part 2 of 8, counted from 0. */
+static bool set_part(struct command *command, struct gb_error *err)
+{
+    const char *text = command->request->part;
+    unsigned long part = 0, parts = 0;
+    char rest = '\0';
+    if (text == NULL) {
+        return true;
+    }
+    if (strspn(text, "0123456789/") != strlen(text) || strlen(text) > 20 ||
+        sscanf(text, "%lu/%lu%c", &part, &parts, &rest) != 2 || part < 1 ||
+        part > parts) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--part %.80s: expected I/N with I from 1 to N, as in 3/8",
+                            text);
+    }
+    command->sweep.ensemble.part = part - 1;
+    command->sweep.ensemble.parts = parts;
+    return true;
 }
 
 static bool add_axes(struct command *command, struct gb_error *err)
@@ -59,18 +97,18 @@ static bool add_axes(struct command *command, struct gb_error *err)
     return true;
 }
 
-/* Refuses a sweep that is estimated to take longer than an hour without --yes.  Under
- * mpirun the number of ranks shows that it is deliberate. */
+/* Refuses a sweep that is estimated to take longer than an hour without --yes.  One that a
+ * launcher has started is deliberate. */
 static bool estimate(struct command *command, struct gb_error *err)
 {
     const struct request *request = command->request;
     size_t runs = 0;
     char total[48], each[48];
     const double all_s = gb_ensemble_remaining_s(&command->sweep.ensemble, &runs);
-    const size_t workers =
-        request->jobs > 0 ? (size_t)request->jobs : (size_t)g_get_num_processors();
+    const size_t workers = gb_batch_progress_all_workers(&command->batch, request->jobs);
     const double wait_s = all_s / (double)MAX(MIN(workers, runs), 1);
-    if (runs == 0 || isnan(all_s) || command->batch.mpi != NULL) {
+    if (runs == 0 || isnan(all_s) || command->batch.launch.launched || request->tasks ||
+        request->collect || request->part != NULL) {
         return true;
     }
     gb_cost_duration(wait_s, total, sizeof total);
@@ -105,7 +143,8 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
             gb_sweep_target_parse(&sweep->target, request->target, err)) &&
            gb_param_sweep_fill(sweep, params, (size_t)request->replicas, request->out,
                                err) &&
-           estimate(command, err) && gb_ensemble_make_directory(request->out, err);
+           set_part(command, err) && estimate(command, err) &&
+           (request->tasks || gb_ensemble_make_directory(request->out, err));
 }
 
 /* sensitivity.csv of a design, and its last densities for people. */
@@ -152,31 +191,140 @@ static bool check_runs(const struct command *command, struct gb_error *err)
     return good;
 }
 
-/* The tables are written after an interrupted sweep, too. */
-static bool perform(struct command *command, char **words, struct gb_error *err)
+/* Writes the tables, unless other processes have runs under way: the last one does it.
+ * collected   all runs are known here, and what can be said of them is said */
+static bool write_tables(struct command *command, bool *collected, struct gb_error *err)
 {
     const struct request *request = command->request;
-    struct gb_error stopped = {0};
-    command->batch.output =
-        request->quiet ? GB_BATCH_PROGRESS_QUIET : GB_BATCH_PROGRESS_ALL;
-    if (!prepare(command, words, err)) {
+    struct gb_param_sweep *sweep = &command->sweep;
+    struct gb_lock lock;
+    if (!gb_batch_progress_lock(&lock, request->out, request->quiet, err)) {
         return false;
     }
-    if (!request->quiet && command->estimate[0] != '\0') {
-        gb_visible_line(stderr, "%s", command->estimate);
+    *collected = gb_ensemble_refresh(&sweep->ensemble) == 0;
+    const bool good = !*collected || gb_param_sweep_write(sweep, request->out, err);
+    gb_lock_release(&lock);
+    return good;
+}
+
+static void print_left(const struct command *command)
+{
+    if (!command->request->quiet) {
+        char *runs = gb_batch_progress_elsewhere(&command->sweep.ensemble);
+        gb_visible_line(stderr,
+                        "nothing left to do here; under way in other processes: %s; the "
+                        "last one writes the tables",
+                        runs);
+        g_free(runs);
     }
-    const bool worked = gb_batch_progress_work(&command->batch, &command->sweep.ensemble,
-                                               request->jobs, &stopped);
-    if (!gb_param_sweep_write(&command->sweep, request->out, err) ||
-        (worked && command->sweep.axes.design > 0 &&
-         !write_sensitivities(command, err))) {
+}
+
+/* The command with --part in place of --tasks for each run that is not done. */
+static void print_tasks(const struct command *command)
+{
+    const struct request *request = command->request;
+    const struct gb_ensemble *ensemble = &command->sweep.ensemble;
+    const size_t runs = ensemble->points * ensemble->replicas;
+    GString *text = g_string_new("greenbody sweep");
+    for (int i = 1; i < request->argc; i++) {
+        if (strcmp(request->argv[i], "--tasks") != 0) {
+            char *word = g_shell_quote(request->argv[i]);
+            const bool plain =
+                strspn(request->argv[i], plain_signs) == strlen(request->argv[i]);
+            g_string_append_printf(text, " %s", plain ? request->argv[i] : word);
+            g_free(word);
+        }
+    }
+    for (size_t i = 0; i < runs; i++) {
+        if (!ensemble->run[i].ended) {
+            printf("%s --part %zu/%zu\n", text->str, i + 1, runs);
+        }
+    }
+    g_string_free(text, TRUE);
+}
+
+static bool report_missing(const struct command *command, struct gb_error *err)
+{
+    const struct gb_ensemble *ensemble = &command->sweep.ensemble;
+    size_t missing = 0;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        const struct gb_ensemble_run *run = &ensemble->run[i];
+        missing += !run->ended && run->replica < gb_ensemble_used(ensemble, run->point);
+    }
+    return missing == 0 ||
+           gb_error_set(err, GB_ERR_GUARD,
+                        "%zu of %zu runs are missing, listed in %.200s/runs.csv", missing,
+                        ensemble->points * ensemble->replicas, command->request->out);
+}
+
+/* What there is to say once all runs are known. */
+static bool conclude(struct command *command, struct gb_error *err)
+{
+    if (command->sweep.axes.design > 0 && !write_sensitivities(command, err)) {
+        return false;
+    }
+    print_missed(command);
+    return check_runs(command, err);
+}
+
+static bool collect(struct command *command, struct gb_error *err)
+{
+    const struct request *request = command->request;
+    struct gb_lock lock;
+    if (!gb_batch_progress_lock(&lock, request->out, request->quiet, err)) {
+        return false;
+    }
+    (void)gb_ensemble_refresh(&command->sweep.ensemble);
+    const bool good = gb_param_sweep_write(&command->sweep, request->out, err);
+    gb_lock_release(&lock);
+    return good && report_missing(command, err) && conclude(command, err);
+}
+
+/* The tables are written after an interrupted sweep, too.  A launcher ends all processes
+ * when one of them fails: what failed here is reported by the last one. */
+static bool work(struct command *command, struct gb_error *err)
+{
+    const struct request *request = command->request;
+    struct gb_ensemble *ensemble = &command->sweep.ensemble;
+    struct gb_error stopped = {0};
+    bool collected = false;
+    ensemble->leaves = request->target == NULL && request->part == NULL;
+    const bool worked =
+        gb_batch_progress_work(&command->batch, ensemble, request->jobs, &stopped);
+    if (request->part == NULL && !write_tables(command, &collected, err)) {
         return false;
     }
     if (!worked) {
         return gb_error_set(err, stopped.code, "%s", stopped.text);
     }
-    print_missed(command);
-    return check_runs(command, err);
+    if (request->part != NULL) {
+        return check_runs(command, err);
+    }
+    if (!collected) {
+        print_left(command);
+        return true;
+    }
+    return conclude(command, err);
+}
+
+static bool perform(struct command *command, char **words, struct gb_error *err)
+{
+    const struct request *request = command->request;
+    if (!gb_batch_progress_init(&command->batch, request->jobs, request->quiet, err) ||
+        !prepare(command, words, err)) {
+        return false;
+    }
+    if (request->tasks) {
+        print_tasks(command);
+        return true;
+    }
+    if (request->collect) {
+        return collect(command, err);
+    }
+    if (command->batch.output == GB_BATCH_PROGRESS_ALL && command->estimate[0] != '\0') {
+        gb_visible_line(stderr, "%s", command->estimate);
+    }
+    return work(command, err);
 }
 
 static void free_request(struct request *request)
@@ -187,6 +335,7 @@ static void free_request(struct request *request)
     g_free(request->at);
     g_free(request->target);
     g_free(request->design);
+    g_free(request->part);
 }
 
 static const struct gb_options_page page = {
@@ -196,7 +345,9 @@ static const struct gb_options_page page = {
     "standard errors, DIR/runs.csv the state of every run.",
     "Repeated, the command does the missing and the failed runs; a larger grid or\n"
     "more replicas add to the runs that exist.  A run that fails does not stop the\n"
-    "others.  Each run uses one thread unless numerics.threads is given.\n\n"
+    "others.  Each run uses one thread unless numerics.threads is given.\n"
+    "Several such commands in one directory, on one machine or many, divide its runs;\n"
+    "the one that ends last writes the tables (docs/many-runs.md has Slurm scripts).\n\n"
     "Size effect (P1 Figs. 5 and 6), with bridges and by friction alone:\n"
     "  greenbody sweep p1-set2-9.7nm --vary 'particles.diameter=9.7;16;21;38 nm' \\\n"
     "    --replicas 10 --at '100 MPa' --out sizes\n"
@@ -215,6 +366,7 @@ static const struct gb_options_page page = {
 int gb_cmd_sweep(int argc, char **argv)
 {
     struct request request = {.replicas = 1};
+    char **typed = g_new0(char *, (gsize)argc + 1); /* parsing takes words away */
     struct command command = {.request = &request};
     struct gb_error err = {0};
     char **words = NULL;
@@ -242,17 +394,26 @@ int gb_cmd_sweep(int argc, char **argv)
          "runs at once (one per processor)", "N"},
         {"yes", 'y', 0, G_OPTION_ARG_NONE, &request.yes,
          "begin a sweep estimated to take more than an hour", NULL},
+        {"tasks", 0, 0, G_OPTION_ARG_NONE, &request.tasks,
+         "print a command for each run that is not done, for GNU parallel, HyperQueue, "
+         "Snakemake or a Slurm array; then --collect",
+         NULL},
+        {"part", 0, 0, G_OPTION_ARG_STRING, &request.part,
+         "only every N-th run, from the I-th on, without tables", "I/N"},
+        {"collect", 0, 0, G_OPTION_ARG_NONE, &request.collect,
+         "no runs, only the tables of those that are done", NULL},
         gb_options_quiet(&request.quiet),
         {0}};
-    if (gb_options_parse(&page, entries, argc, argv, &words, &status) &&
-        gb_batch_progress_join(&command.batch, request.jobs, &status) ==
-            GB_BATCH_PROGRESS_FIRST) {
+    memcpy(typed, argv, (size_t)argc * sizeof *argv);
+    request.argc = argc;
+    request.argv = typed;
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         status = perform(&command, words, &err) ? 0 : gb_batch_progress_exit(&err);
-        gb_mpi_pool_destroy(command.batch.mpi);
     }
     gb_param_sweep_finish(&command.sweep);
     gb_preset_destroy(command.preset);
     g_strfreev(words);
+    g_free(typed);
     free_request(&request);
     return status;
 }

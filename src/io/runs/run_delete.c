@@ -58,7 +58,7 @@ static bool count_entry(int folder, const char *name, void *data)
     if (is_directory(folder, name)) {
         return for_each(folder, name, count_entry, data);
     }
-    ++*(int *)data;
+    *(int *)data += strcmp(name, ".lock") != 0; /* which is no file of the run */
     return true;
 }
 

@@ -181,7 +181,7 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
                             struct gb_experiment **experiment, const char *directory,
                             enum gb_run_recorder_from from, struct gb_error *err)
 {
-    struct gb_rundir dir = {.lock = -1};
+    struct gb_rundir dir = GB_RUNDIR_NONE;
     struct gb_params params;
     struct gb_run_recorder *recorder = NULL;
     bool begun = false;

@@ -584,8 +584,9 @@ bool gb_quantities_work(const struct gb_params *params, const char *path,
 {
     GKeyFile *question = NULL;
     struct gb_quantity_ask ask;
+    struct gb_lock lock;
     double value[GB_QUANTITY_VALUES];
-    if (!gb_cells_question(&question, path, err)) {
+    if (!gb_cells_question(&question, &lock, path, err)) {
         return false;
     }
     const struct gb_quantity_study *study = study_of(question);
@@ -596,6 +597,7 @@ bool gb_quantities_work(const struct gb_params *params, const char *path,
     }
     g_key_file_free(question);
     if (study == NULL) {
+        gb_lock_release(&lock);
         return gb_error_set(err, GB_ERR_INPUT, "%.300s.ini: no question of a chart",
                             path);
     }
@@ -606,8 +608,10 @@ bool gb_quantities_work(const struct gb_params *params, const char *path,
     struct gb_error why = {0};
     const bool good = study->measure(value, params, &ask, path, callbacks, &why);
     const double cpu_s = gb_clock_process_s() - begin;
-    if (!good && why.code != GB_ERR_GUARD && why.code != GB_ERR_NOT_CONVERGED) {
-        return gb_error_set(err, why.code, "%s", why.text);
-    }
-    return answer(study, value, cpu_s, !good, path, err);
+    const bool measured =
+        good || why.code == GB_ERR_GUARD || why.code == GB_ERR_NOT_CONVERGED;
+    const bool answered = measured ? answer(study, value, cpu_s, !good, path, err)
+                                  : gb_error_set(err, why.code, "%s", why.text);
+    gb_lock_release(&lock);
+    return answered;
 }

@@ -1,18 +1,23 @@
 #include "study/compact/cells.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/read_file.h"
 #include "io/text_file.h"
 #include "many/ensemble.h"
+#include "many/launch.h"
 
 enum { QUESTION_BYTES_MAX = 1 << 24 };
 
 static const double poll_s = 0.2;
+static const double patience_s = 60.0;
+static const char taken_text[] = "another process measures this cell or has done so";
 static const char group[] = "cell";
 
 static void free_cell(void *data)
@@ -110,18 +115,34 @@ void gb_cells_find_done(struct gb_cells *cells)
     }
 }
 
-/* The old answer goes before the question changes. */
+/* The answer to another question goes before the question changes. */
 static bool ask(const struct gb_cells *cells, const struct gb_cells_item *cell,
                 struct gb_error *err)
 {
     char *question = path_of(cells, cell, ".ini");
     char *answer = path_of(cells, cell, ".csv");
-    (void)remove(answer);
-    const bool good = gb_text_file_replace(
-        question, cell->question, strlen(cell->question), GB_TEXT_FILE_OF_RUN, err);
+    char *text = NULL;
+    size_t length = 0;
+    bool good = gb_read_file(question, QUESTION_BYTES_MAX, &text, &length, NULL) &&
+                strcmp(text, cell->question) == 0;
+    if (!good) {
+        (void)remove(answer);
+        good = gb_text_file_replace(question, cell->question, strlen(cell->question),
+                                    GB_TEXT_FILE_OF_RUN, err);
+    }
+    gb_alloc_free(text);
     g_free(answer);
     g_free(question);
     return good;
+}
+
+/* Does another process measure the cell? */
+static bool is_held(const struct gb_cells *cells, const struct gb_cells_item *cell)
+{
+    char *name = g_strconcat(cell->name, ".lock", NULL);
+    const bool held = gb_lock_is_held(cells->directory, name);
+    g_free(name);
+    return held;
 }
 
 static bool submit(struct gb_cells *cells, struct gb_pool *pool, size_t index,
@@ -129,10 +150,10 @@ static bool submit(struct gb_cells *cells, struct gb_pool *pool, size_t index,
 {
     struct gb_cells_item *cell = g_ptr_array_index(cells->list, index);
     char *path = path_of(cells, cell, "");
-    const bool good =
+    cell->submitted =
         ask(cells, cell, err) && gb_pool_submit(pool, index, &cell->params, path, err);
     g_free(path);
-    return good;
+    return cell->submitted;
 }
 
 static void report(const struct gb_cells *cells,
@@ -144,34 +165,86 @@ static void report(const struct gb_cells *cells,
     }
 }
 
-/* Cells in the order of the list, as workers become idle. */
-static bool run(struct gb_cells *cells, struct gb_pool *pool,
-                const struct gb_cells_callbacks *callbacks, struct gb_error *err)
+/* A study under way. */
+struct work {
+    struct gb_cells *cells;
+    struct gb_pool *pool;
+    const struct gb_cells_callbacks *callbacks;
+    size_t ended;
+    double idle_since; /* clock: nothing is under way here since then */
+};
+
+static void wait_for(const struct work *work, struct gb_cells_item *cell)
 {
-    size_t next = 0, ended = 0;
+    if (!cell->named && work->callbacks->on_wait != NULL &&
+        gb_clock_s() - work->idle_since > patience_s) {
+        char *name = g_strconcat(cell->name, ".lock", NULL);
+        char *holder = gb_lock_holder(work->cells->directory, name);
+        cell->named = true;
+        work->callbacks->on_wait(work->callbacks->data, cell, holder);
+        g_free(holder);
+        g_free(name);
+    }
+}
+
+/* Submits cells in the order of the list to idle workers.  In this order: a cell that
+ * another process ends between the two looks is done. */
+static bool submit_idle(struct work *work, struct gb_error *err)
+{
+    for (guint i = 0; i < work->cells->list->len && gb_pool_idle(work->pool) > 0; i++) {
+        struct gb_cells_item *cell = g_ptr_array_index(work->cells->list, i);
+        if (cell->ended || cell->submitted) {
+            continue;
+        }
+        if (is_held(work->cells, cell)) {
+            wait_for(work, cell);
+            continue;
+        }
+        cell->done = cell->ended = is_done(work->cells, cell);
+        work->ended += cell->ended;
+        if (!cell->ended && !submit(work->cells, work->pool, i, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void receive(struct work *work)
+{
+    struct gb_pool_report end;
+    if (!gb_pool_receive(work->pool, poll_s, &end)) {
+        return;
+    }
+    struct gb_cells_item *cell = g_ptr_array_index(work->cells->list, end.ticket);
+    if (end.error.code == GB_ERR_INPUT && strcmp(end.error.text, taken_text) == 0) {
+        cell->submitted = false;
+        return;
+    }
+    cell->error = end.error;
+    cell->done = end.error.code == GB_OK;
+    cell->ended = true;
+    report(work->cells, work->callbacks, cell, ++work->ended);
+}
+
+static bool run(struct work *work, struct gb_error *err)
+{
+    const struct gb_cells_callbacks *callbacks = work->callbacks;
     bool stopped = false;
-    while (ended < cells->list->len && (!stopped || gb_pool_busy(pool) > 0)) {
-        struct gb_pool_report end;
-        while (!stopped && next < cells->list->len && gb_pool_idle(pool) > 0) {
-            struct gb_cells_item *cell = g_ptr_array_index(cells->list, next);
-            cell->done = is_done(cells, cell);
-            ended += cell->done;
-            if (!cell->done && !submit(cells, pool, next, err)) {
-                return false;
-            }
-            next++;
-        }
-        if (gb_pool_busy(pool) > 0 && gb_pool_receive(pool, poll_s, &end)) {
-            struct gb_cells_item *cell = g_ptr_array_index(cells->list, end.ticket);
-            cell->error = end.error;
-            cell->done = end.error.code == GB_OK;
-            report(cells, callbacks, cell, ++ended);
-        }
+    while (true) {
         if (!stopped && callbacks->cancelled != NULL &&
             callbacks->cancelled(callbacks->data)) {
-            gb_pool_stop(pool);
+            gb_pool_stop(work->pool);
             stopped = true;
         }
+        if (!stopped && !submit_idle(work, err)) {
+            return false;
+        }
+        if (gb_pool_busy(work->pool) > 0) {
+            work->idle_since = gb_clock_s();
+        } else if (stopped || work->ended == work->cells->list->len) {
+            break;
+        }
+        receive(work);
     }
     return !stopped || gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
 }
@@ -180,11 +253,13 @@ bool gb_cells_work(struct gb_cells *cells, int jobs, gb_pool_work *work,
                    const struct gb_cells_callbacks *callbacks, struct gb_error *err)
 {
     static const struct gb_cells_callbacks none;
-    struct gb_pool *pool = NULL;
-    const size_t workers = jobs > 0 ? (size_t)jobs : g_get_num_processors();
-    const bool good = gb_pool_create(&pool, workers, work, NULL, err) &&
-                      run(cells, pool, callbacks != NULL ? callbacks : &none, err);
-    gb_pool_destroy(pool);
+    const struct gb_launch launch = gb_launch_read();
+    const size_t workers = (size_t)(jobs > 0 ? jobs : gb_launch_cores(&launch));
+    struct work study = {.cells = cells,
+                         .callbacks = callbacks != NULL ? callbacks : &none,
+                         .idle_since = gb_clock_s()};
+    const bool good = gb_pool_create(&study.pool, workers, work, err) && run(&study, err);
+    gb_pool_destroy(study.pool);
     return good;
 }
 
@@ -238,20 +313,43 @@ void gb_cells_read(GKeyFile *question, struct gb_keep_point *mark, void *options
     }
 }
 
-bool gb_cells_question(GKeyFile **question, const char *path, struct gb_error *err)
+/* Locks a cell that has no answer yet. */
+static bool claim(struct gb_lock *lock, const char *path, struct gb_error *err)
+{
+    char *folder = g_path_get_dirname(path);
+    char *answer = g_strconcat(path, ".csv", NULL);
+    char *file = g_path_get_basename(path), *name = g_strconcat(file, ".lock", NULL);
+    bool good = gb_lock_take(lock, folder, name);
+    if (!good && errno != EWOULDBLOCK) {
+        gb_error_set(err, GB_ERR_MACHINE, "%.300s.lock: %s", path, g_strerror(errno));
+    } else if (!good || g_file_test(answer, G_FILE_TEST_EXISTS)) {
+        good = gb_error_set(err, GB_ERR_INPUT, "%s", taken_text);
+    }
+    g_free(name);
+    g_free(file);
+    g_free(answer);
+    g_free(folder);
+    return good;
+}
+
+bool gb_cells_question(GKeyFile **question, struct gb_lock *lock, const char *path,
+                       struct gb_error *err)
 {
     char *file = g_strconcat(path, ".ini", NULL);
     GError *error = NULL;
     char *text = NULL;
     size_t length = 0;
     *question = g_key_file_new();
+    *lock = GB_LOCK_NONE;
     const bool good =
+        claim(lock, path, err) &&
         gb_read_file(file, QUESTION_BYTES_MAX, &text, &length, err) &&
         (g_key_file_load_from_data(*question, text, length, G_KEY_FILE_NONE, &error) ||
          gb_error_set(err, GB_ERR_MACHINE, "%.300s: %.200s", file, error->message));
     g_clear_error(&error);
     gb_alloc_free(text);
     if (!good) {
+        gb_lock_release(lock);
         g_key_file_free(*question);
         *question = NULL;
     }

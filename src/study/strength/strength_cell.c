@@ -136,7 +136,8 @@ bool gb_strength_cell_work(const struct gb_params *params, const char *path,
     struct gb_strength_options options;
     struct gb_keep_point mark;
     struct gb_strength_broken test[GB_STRENGTH_TESTS];
-    if (!gb_cells_question(&question, path, err)) {
+    struct gb_lock lock;
+    if (!gb_cells_question(&question, &lock, path, err)) {
         return false;
     }
     gb_strength_options_read(&options, &mark, question);
@@ -146,5 +147,6 @@ bool gb_strength_cell_work(const struct gb_params *params, const char *path,
         gb_strength_cell_measure(test, params, &mark, &options, rows, callbacks, err) &&
         gb_cells_answer(path, ".csv", rows, err);
     g_string_free(rows, TRUE);
+    gb_lock_release(&lock);
     return good;
 }

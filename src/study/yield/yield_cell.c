@@ -160,7 +160,8 @@ bool gb_yield_cell_work(const struct gb_params *params, const char *path,
 {
     GKeyFile *question = NULL;
     struct cell cell;
-    if (!gb_cells_question(&question, path, err)) {
+    struct gb_lock lock;
+    if (!gb_cells_question(&question, &lock, path, err)) {
         return false;
     }
     cell_init(&cell, callbacks);
@@ -170,5 +171,6 @@ bool gb_yield_cell_work(const struct gb_params *params, const char *path,
                       gb_cells_answer(path, ".paths.csv", cell.paths, err) &&
                       gb_cells_answer(path, ".csv", cell.points, err);
     cell_finish(&cell);
+    gb_lock_release(&lock);
     return good;
 }
