@@ -1,6 +1,7 @@
 #ifndef GB_IO_RUNDIR_H
 #define GB_IO_RUNDIR_H
 
+#include <glib.h>
 #include <stdbool.h>
 
 #include "base/lock.h"

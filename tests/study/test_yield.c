@@ -7,8 +7,8 @@
 
 #include "common/scene.h"
 #include "common/tree.h"
-#include "study/yield/yield_files.h"
 #include "study/compact/offset_probe.h"
+#include "study/yield/yield_files.h"
 
 static char *folder;
 

@@ -280,6 +280,13 @@ static void quantity_progress(void *data, const struct gb_cells_item *cell, size
     }
 }
 
+static void quantity_waits(void *data, const struct gb_cells_item *cell,
+                           const char *holder)
+{
+    (void)data;
+    gb_visible_line(stderr, "waiting for cells/%s: %s works on it", cell->name, holder);
+}
+
 /* scene.ini: preset.ini is the mark of a single run. */
 static bool keep_scene(const struct chart *chart, struct gb_error *err)
 {
@@ -328,7 +335,7 @@ static bool perform_quantity(struct chart *chart, char **words, char **sets,
 {
     const struct gb_quantity *wanted = gb_quantities_find(chart->quantity, err);
     const struct gb_cells_callbacks callbacks = {quantity_cancelled, quantity_progress,
-                                                 chart};
+                                                 quantity_waits, chart};
     char cost[64];
     size_t missing = 0;
     struct gb_error why = {0};

@@ -135,7 +135,7 @@ static bool measure_level(struct gb_card_cell *cell, int index, int replica,
 {
     struct gb_card_level *level = &cell->level[index];
     const struct gb_compact_state state = gb_compact_state_of(&top->point);
-    const double pressing = top->tolerance;
+    const double before = top->tolerance;
     struct gb_compact inside = {0};
     struct gb_compact_elastic elastic;
     level->density = top->point.density;
@@ -145,7 +145,7 @@ static bool measure_level(struct gb_card_cell *cell, int index, int replica,
     bool good =
         unload(top, options->inside * state.p, options, callbacks, &inside, err) &&
         gb_compact_elastic(&elastic, &inside, callbacks, err);
-    top->tolerance = pressing;
+    top->tolerance = before;
     if (good) {
         level->inside_pa = gb_compact_state_of(&inside.point).p;
         level->bulk = elastic.bulk;
