@@ -202,6 +202,7 @@ int main(int argc, char **argv)
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");
     gsl_set_error_handler_off();
+    signal(SIGXFSZ, SIG_IGN); /* a file beyond its size limit is an error of write() */
     signal(SIGPIPE, SIG_IGN); /* writing to a closed pipe is the error EPIPE instead */
     struct gb_error err;
     if (!gb_simd_check(&err)) {

@@ -29,7 +29,6 @@ void gb_signals_install(enum gb_signals_hangup hangup)
     if (before.sa_handler != SIG_IGN) {
         sigaction(SIGHUP, hangup == GB_SIGNALS_HANGUP_ENDS ? &action : &note, NULL);
     }
-    signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
 }
 

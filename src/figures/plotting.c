@@ -9,6 +9,7 @@
 #include "base/read_file.h"
 #include "figures/output_formats.h"
 #include "figures/provenance.h"
+#include "io/rundir_files.h"
 
 /* "x.png" -> "x.csv"; g_free. */
 static char *csv_path(const char *path)
@@ -23,7 +24,7 @@ static bool check_file(const char *path, enum gb_plotting_existing existing,
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             path);
     }
-    return gb_file_check_target(path, err);
+    return gb_rundir_files_spare(path, err) && gb_file_check_target(path, err);
 }
 
 /* The CSV of the same figure in another format has the same data. */
@@ -54,7 +55,8 @@ bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
         return false;
     }
     char *csv = csv_path(output);
-    const bool good = check_file(output, existing, err) && gb_file_check_target(csv, err);
+    const bool good = check_file(output, existing, err) &&
+                      gb_rundir_files_spare(csv, err) && gb_file_check_target(csv, err);
     g_free(csv);
     return good;
 }
@@ -171,9 +173,8 @@ static void draw_words(struct gb_series *series, const struct data *data,
     char *escaped = g_markup_escape_text(*word != '\0' ? word : "measured", -1);
     char *label =
         g_strconcat(escaped, has_label(series, escaped) ? ", points" : "", NULL);
-    struct gb_series_curve *curve =
-        gb_series_draw(series, x, y, y_error, GB_FIGURE_POINTS, gb_figure_black(number),
-                       label);
+    struct gb_series_curve *curve = gb_series_draw(
+        series, x, y, y_error, GB_FIGURE_POINTS, gb_figure_black(number), label);
     curve->x_error = curve->error + 1;
     curve->rows = filled;
     g_free(label);

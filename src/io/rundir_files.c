@@ -1,6 +1,7 @@
 #include "io/rundir_files.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -43,6 +44,40 @@ static bool is_known_name(const char *name)
         }
     }
     return false;
+}
+
+static bool has_run(const char *directory)
+{
+    char *preset = g_build_filename(directory, known_files[0], NULL);
+    char *curve = g_build_filename(directory, known_files[1], NULL);
+    const bool has =
+        g_file_test(preset, G_FILE_TEST_EXISTS) && g_file_test(curve, G_FILE_TEST_EXISTS);
+    g_free(curve);
+    g_free(preset);
+    return has;
+}
+
+bool gb_rundir_files_spare(const char *path, struct gb_error *err)
+{
+    char *true_path = realpath(path, NULL); /* links lead to the file that is replaced */
+    const char *target = true_path != NULL ? true_path : path;
+    char *name = g_path_get_basename(target);
+    char *directory = g_path_get_dirname(target);
+    char *folder = g_path_get_basename(directory);
+    char *above = g_path_get_dirname(directory);
+    const bool own =
+        (is_known_name(name) && has_run(directory)) ||
+        (true_path != NULL && strcmp(folder, snapshot_folder) == 0 && has_run(above));
+    if (own) {
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%.300s: is a file of a run: expected another name", path);
+    }
+    g_free(above);
+    g_free(folder);
+    g_free(directory);
+    g_free(name);
+    free(true_path);
+    return !own;
 }
 
 /* Of the files that an engine alone replaces. */

@@ -28,9 +28,10 @@ void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic
     gb_law_hertz_init(&law->hertz, i, j);
     law->exponent = exponent;
     law->strength = gb_law_storakers_strength(strength_i, strength_j, exponent);
-    law->factor = gb_portable_pow(2.0, 1.0 - 0.5 * exponent) *
-                  gb_portable_pow(3.0, 1.0 - exponent) * M_PI * 1.43 *
-                  gb_portable_exp(-0.97 * exponent);
+    const double shape = gb_portable_pow(2.0, 1.0 - 0.5 * exponent) *
+                         gb_portable_pow(3.0, 1.0 - exponent) * M_PI;
+    law->factor = shape * 1.43 * gb_portable_exp(-0.97 * exponent);
+    law->c = gb_portable_pow(law->factor / shape, 1.0 / (2.0 + exponent));
     law->printed = printed;
 }
 
@@ -70,6 +71,16 @@ struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law
     }
     return (struct gb_law_branch){plastic,
                                   gb_law_storakers_plastic_stiffness(law, radius, h)};
+}
+
+double gb_law_storakers_contact(const struct gb_law_storakers *law, double radius,
+                                double h)
+{
+    if (!(h > 0.0)) {
+        return 0.0;
+    }
+    const bool plastic = law->printed || h > gb_law_storakers_transition(law, radius);
+    return plastic ? law->c * sqrt(2.0 * radius * h) : sqrt(radius * h);
 }
 
 double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, double h)

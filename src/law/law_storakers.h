@@ -22,6 +22,7 @@ struct gb_law_storakers {
     double exponent; /* m, 0 to below 1 */
     double strength; /* sigma_0*, (18) */
     double factor;   /* 2^(1-m/2) 3^(1-m) pi c^(2+m), (16), (17) */
+    double c;        /* a = c sqrt(2 R* h) of a plastic contact, (17) */
     bool printed;
 };
 
@@ -57,6 +58,11 @@ struct gb_law_branch {
 double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, double h);
 struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law,
                                               double radius, double h);
+
+/* Contact radius a on the loading curve: Hertz' sqrt(R* h), or c sqrt(2 R* h) where the
+ * plastic force is active; 0 for h <= 0.  Source: P3 (2), (17). */
+double gb_law_storakers_contact(const struct gb_law_storakers *law, double radius,
+                                double h);
 
 /* Elastic part of the deepest overlap, h_max - h0: what springs back. */
 double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,

@@ -113,8 +113,9 @@
 #define GB_NONAFFINE_MAX          0.2
 #define GB_NONAFFINE_HALVINGS_MAX 2
 
-/* Overlap (d) beyond which the contact laws do not hold: h -> 1 is singular,
- * and two centres about to cross mean that a strain step was too large. */
+/* Overlap, in diameters of the smaller particle, beyond which the contact laws do not hold:
+ * h -> 1 is singular, and two centres about to cross mean that a step was too large.  The
+ * centre of a particle is on a wall at this overlap, and beyond it outside of the die. */
 #define GB_OVERLAP_MAX 0.5
 
 /* Halvings of the strain step in a row after which a quasi-static run stops.  More: a run
@@ -358,10 +359,10 @@
  * was missed passes.  0: every run misses it. */
 #define GB_DIE_GOAL_TOLERANCE 0.05
 
-/* Relative density under the punch that ends a run: the contacts of P3 deform one by one,
- * and spheres that overlap by more than all pores have no such contacts.  Larger: points
+/* Relative density, of a cell or under the punch, that ends a run: contacts deform one by
+ * one, and spheres that overlap by more than all pores have no such contacts.  Larger: points
  * without a meaning are recorded. */
-#define GB_DIE_DENSITY_MAX 1.0
+#define GB_DENSITY_MAX 1.0
 
 /* Rise of a pressing punch above the height where it began, as a share of that, beyond
  * which the powder has thrown it off.  Smaller: the bounce of a light punch at the first

@@ -194,6 +194,24 @@ refused 'a directory without a run' "$greenbody" export . --format csv -o out
 refused 'a file that exists' "$greenbody" export run --format csv -o one.csv
 is 'is left as it was' [ "$(grep -c '^[0-9]' one.csv)" -eq 200 ]
 refused 'one name for both' "$greenbody" export run --format csv --contacts out -o out
+for name in state.h5 preset.ini curve.csv events.log status.json trajectory.extxyz; do
+    refused "$name of a run" "$greenbody" export run --format csv --force -o run/$name
+    refused 'for contacts' "$greenbody" export run --format csv --force --contacts \
+        run/$name -o out
+done
+ln -s run/state.h5 link
+refused 'a link to one' "$greenbody" export run --format csv --force -o link
+kept=$(ls run/snapshots | head -1)
+refused 'a kept state' "$greenbody" export run --format csv --force -o "run/snapshots/$kept"
+refused 'by a figure' "$greenbody" plot run --figure densification --force -o run/curve.csv
+is 'the run is whole' "$greenbody" verify run --quiet
+(
+    ulimit -f 1
+    export_run --format csv -o large.csv
+    [ $? -eq 3 ] && grep -q 'File too large' stderr
+)
+result 'a file beyond the size limit is an error' $?
+is 'and leaves nothing' [ -z "$(ls | grep large)" ]
 is '--force replaces it' export_run --format csv --force -o one.csv
 
 echo "1..$tests"

@@ -48,6 +48,34 @@ static void test_exact_values(void)
                     30);
 }
 
+/* Contact radius and force are (15) to (17) with one c: c^(2+m) = 1.43 exp(-0.97 m) and
+ * F = 3^(1-m) sigma_0 (a/2 R)^m pi a^2.  Elastic contacts have Hertz' radius. */
+static void test_contact(void)
+{
+    static const double more[] = {0.0, 0.05, 0.1, 0.2, 0.3, 0.6};
+    for (size_t i = 0; i < G_N_ELEMENTS(more); i++) {
+        const double m = more[i];
+        const struct gb_law_storakers law = make(2e9, 2e9, m, true);
+        for (size_t r = 0; r < G_N_ELEMENTS(radii); r++) {
+            const double h = 0.05 * radii[r];
+            const double a = gb_law_storakers_contact(&law, radii[r], h);
+            assert_close(pow(a / sqrt(2.0 * radii[r] * h), 2.0 + m),
+                         1.43 * exp(-0.97 * m), 1e-13);
+            assert_close(gb_law_storakers_plastic(&law, radii[r], h),
+                         pow(3.0, 1.0 - m) * law.strength * pow(a / (2.0 * radii[r]), m) *
+                             M_PI * a * a,
+                         1e-13);
+            const struct gb_law_storakers lesser = nial_law(m < 0.3 ? m : 0.1, false);
+            const double border = gb_law_storakers_transition(&lesser, radii[r]);
+            assert_close(gb_law_storakers_contact(&lesser, radii[r], 0.9 * border),
+                         sqrt(0.9 * radii[r] * border), 1e-13);
+            assert_close(gb_law_storakers_contact(&lesser, radii[r], 1.1 * border),
+                         lesser.c * sqrt(2.2 * radii[r] * border), 1e-13);
+        }
+        g_assert_cmpfloat(gb_law_storakers_contact(&law, 1.0, -0.1), ==, 0.0);
+    }
+}
+
 /* sigma_0 = 800, 1049, 1375, 2363 MPa; (18) as printed, and its limit. */
 static void test_strengths(void)
 {
@@ -307,6 +335,7 @@ static void test_wall(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/storakers/contact", test_contact);
     g_test_add_func("/storakers/exact-values", test_exact_values);
     g_test_add_func("/storakers/strengths", test_strengths);
     g_test_add_func("/storakers/published-pair", test_published_pair);

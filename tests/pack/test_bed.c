@@ -57,6 +57,25 @@ static void test_momentum(void)
     gb_bed_destroy(bed);
 }
 
+/* The deepest pair, in diameters of the smaller one. */
+static void test_deepest(void)
+{
+    const struct gb_bed_law law = bed_storakers(0.1, false);
+    const struct gb_die die = bed_die(20.0);
+    for (double ratio = 1.0; ratio < 9.0; ratio *= 2.0) {
+        const double radius[3] = {0.5 * ratio, 0.5, 0.5};
+        int64_t pair[2] = {-1, -1};
+        struct gb_bed *bed = bed_create(3, radius, &die, &law);
+        bed_set_position(bed, 0, 0.0, 0.0, 10.0);
+        bed_set_position(bed, 1, 0.5 * ratio + 0.5 - 0.6, 0.0, 10.0);
+        bed_set_position(bed, 2, 0.0, 0.0, 10.0 + 0.5 * ratio + 0.45);
+        bed_evaluate(bed, 0.0);
+        g_assert_cmpfloat_with_epsilon(gb_bed_deepest(bed, pair), 0.6, 1e-12);
+        g_assert_cmpint(pair[0] + pair[1], ==, 1);
+        gb_bed_destroy(bed);
+    }
+}
+
 /* Rows of an item times their radii to a power. */
 static void scale_rows(const struct gb_bed *bed, struct gb_record_item *item,
                        const char *name, double power)
@@ -390,6 +409,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/bed/momentum", test_momentum);
+    g_test_add_func("/bed/deepest", test_deepest);
     g_test_add_func("/bed/records", test_records);
     g_test_add_func("/bed/list", test_list);
     g_test_add_func("/bed/moving-list", test_moving_list);

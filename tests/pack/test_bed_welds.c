@@ -32,9 +32,9 @@ static struct gb_bed *welded_pair(const struct gb_bed_law *law)
 static double radius_of(const struct gb_bed_law *law, double h)
 {
     const double star = gb_law_hertz_radius(0.5, 0.4);
-    return law->storakers
-               ? sqrt(2.0 * 1.43 * exp(-0.97 * law->normal.exponent) * star * h)
-               : sqrt(star * h);
+    const double m = law->normal.exponent;
+    const double c = pow(1.43 * exp(-0.97 * m), 1.0 / (2.0 + m)); /* P3 (17) */
+    return law->storakers ? c * sqrt(2.0 * star * h) : sqrt(star * h);
 }
 
 static double pull(struct gb_bed *bed, double gap)

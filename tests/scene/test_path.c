@@ -165,6 +165,18 @@ static void test_refused(void)
         {"uniaxial to 1 MPa or 2 MPa or 3 MPa", "at most 2 ends", 3},
         {"strain z = 0 to 3 %", "must not be 0", 3},
         {"uniaxial to 5 MPa; ; unload", "leg 2", 3},
+        {"strain z = 1, z = 0.5 to 3 %", "'z': must be given once", 3},
+        {"strain z = 1, x = 0.5 to 3 % at x = 5 MPa", "'x': must be given once", 3},
+        {"triaxial to 5 % at x = 5 MPa, x = 6 MPa", "'x': must be given once", 3},
+        {"triaxial to 5 % at x = x = 5 MPa", "'x': must be given once", 3},
+        {"hold z = 5 MPa and z = 6 MPa", "'z': must be given once", 3},
+        {"shear xz to 5 % at z = 5 MPa, z by 0.5 x", "'z': must be given once", 3},
+        {"triaxial at 5 MPa to 5 % at 6 MPa", "'at': must be given once", 3},
+        {"triaxial to 5 % at x = 5 MPa at y = 5 MPa", "'at': must be the end", 3},
+        {"hold at z = 5 MPa 3 times at x = 5 MPa", "'at': must be given once", 3},
+        {"triaxial to 5 % at x = y = 0 z", "'0': a share must not be 0", 3},
+        {"triaxial to 5 % at x = y by 0 z", "'0': a share must not be 0", 3},
+        {"radial 0 to 5 MPa", "'radial 0': a share must not be 0", 3},
     };
     for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
         struct gb_path path;

@@ -76,7 +76,7 @@ static void check_densities(const struct outcome *outcome)
 {
     g_assert_cmpint(outcome->count, >, 0);
     for (int i = 0; i < outcome->count; i++) {
-        g_assert_cmpfloat(outcome->density[i], <=, GB_DIE_DENSITY_MAX);
+        g_assert_cmpfloat(outcome->density[i], <=, GB_DENSITY_MAX);
         g_assert_cmpfloat(outcome->density[i], >=,
                           outcome->density[0] / (1.0 + GB_PUNCH_RISE_MAX));
     }

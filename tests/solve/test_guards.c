@@ -17,7 +17,7 @@ static struct gb_world *two(struct gb_model *model, double gap)
     struct gb_error err = {0};
     const double position[6] = {3.0, 4.0, 4.0, 4.0 + gap, 4.0, 4.0};
     model->count = 2;
-    model->edges[0] = model->edges[1] = model->edges[2] = 8.0;
+    model->edges[0] = model->edges[1] = model->edges[2] = 32.0;
     if (!gb_world_create(&world, model, position, &err)) {
         g_error("%s", err.text);
     }
@@ -219,6 +219,38 @@ static void test_cross(void)
     gb_world_destroy(world);
 }
 
+/* The guard on overlaps goes by the smaller particle, in both precisions and for any ratio
+ * of sizes: below 0.5 of its diameter a pair has forces, beyond it has none. */
+static void test_deep(void)
+{
+    static const char *const precision[] = {"numerics.precision=single",
+                                            "numerics.precision=double"};
+    static const char *const sigma[] = {"particles.sigma=0.001", "particles.sigma=0.5",
+                                        "particles.sigma=0.7"};
+    for (size_t p = 0; p < G_N_ELEMENTS(precision); p++) {
+        for (size_t s = 0; s < G_N_ELEMENTS(sigma); s++) {
+            const struct gb_params params =
+                scene_params("particles.distribution=lognormal", sigma[s], precision[p],
+                             "particles.count=8000", NULL);
+            struct gb_model model = scene_model(&params);
+            struct gb_world *world = two(&model, 0.0);
+            const double a = gb_world_diameter(world, 0);
+            const double b = gb_world_diameter(world, 1);
+            g_test_message("%s: %g and %g d", sigma[s], a, b);
+            gb_world_destroy(world);
+            for (int deep = 0; deep < 2; deep++) {
+                struct gb_error err = {0};
+                world =
+                    two(&model, 0.5 * (a + b) - (deep ? 0.55 : 0.45) * fmin(a, b) - 1.0);
+                const bool good = gb_world_evaluate(world, &err);
+                g_assert_true(good == !deep);
+                g_assert_true(!deep || err.code == GB_ERR_GUARD);
+                gb_world_destroy(world);
+            }
+        }
+    }
+}
+
 /* A pressure that does not go to zero, however far the cell is let go. */
 static void test_endless(void)
 {
@@ -249,6 +281,7 @@ static void test_endless(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/guards/deep", test_deep);
     g_test_add_func("/guards/jump", test_jump);
     g_test_add_func("/guards/nonaffine", test_nonaffine);
     g_test_add_func("/guards/cycle", test_cycle);

@@ -10,6 +10,7 @@
 #include "io/export/export.h"
 #include "io/export/export_series.h"
 #include "io/follow.h"
+#include "io/rundir_files.h"
 
 /* The options of the command line. */
 struct request {
@@ -52,7 +53,7 @@ static bool check_target(const char *path, gboolean force, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; accepted with --force",
                             path);
     }
-    return gb_file_check_target(path, err);
+    return gb_rundir_files_spare(path, err) && gb_file_check_target(path, err);
 }
 
 static bool add(struct export *job, struct gb_state *state, int64_t index,

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -280,8 +279,6 @@ int gb_cmd_fit(int argc, char **argv)
         .description = equations,
     };
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        signal(SIGXFSZ,
-               SIG_IGN); /* a file beyond its size limit is an error of write() */
         status = fit(&request, words, &err) ? 0 : gb_options_fail(&err);
     }
     char *const texts[] = {request.equation, request.from,   request.to,

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -48,11 +47,12 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
     const struct gb_figures_row *found = name ? gb_figures_find(name) : NULL;
     if (found == NULL) {
         char *names = gb_figures_names(0), meant[64];
-        gb_error_set(err, GB_ERR_INPUT,
-                     "--figure %.80s: %saccepted a name that greenbody plot --help lists, "
-                     "as time or densification",
-                     name ? name : "",
-                     gb_nearest_word_in(name ? name : "", names, meant, sizeof meant));
+        gb_error_set(
+            err, GB_ERR_INPUT,
+            "--figure %.80s: %saccepted a name that greenbody plot --help lists, "
+            "as time or densification",
+            name ? name : "",
+            gb_nearest_word_in(name ? name : "", names, meant, sizeof meant));
         g_free(names);
     }
     return found;
@@ -398,8 +398,6 @@ int gb_cmd_plot(int argc, char **argv)
         .description = figures,
     };
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        signal(SIGXFSZ,
-               SIG_IGN); /* a file beyond its size limit is an error of write() */
         status = plot(&request, words, &err) ? 0 : gb_options_fail(&err);
     }
     g_free(entries);

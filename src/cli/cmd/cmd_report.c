@@ -1,4 +1,3 @@
-#include <signal.h>
 #include <string.h>
 
 #include <glib.h>
@@ -75,16 +74,15 @@ int gb_cmd_report(int argc, char **argv)
     };
     static const struct gb_options_page page = {
         .usage = "DIR... -o OUT",
-        .summary = "A folder with the pages index.html (for a browser) and report.md:\n"
-                   "key results with errors and conditions on the first one, numbered\n"
-                   "figures with their data, tables, pictures, the keys in use, papers in\n"
-                   "full, presets, curves and the file of --data with checksums.",
+        .summary =
+            "A folder with the pages index.html (for a browser) and report.md:\n"
+            "key results with errors and conditions on the first one, numbered\n"
+            "figures with their data, tables, pictures, the keys in use, papers in\n"
+            "full, presets, curves and the file of --data with checksums.",
         .description = gb_lab_input_help,
     };
     GOptionEntry *entries = gb_lab_input_entries(&measured.lab, own);
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        signal(SIGXFSZ,
-               SIG_IGN); /* a file beyond its size limit is an error of write() */
         status = report_on(words, &measured, output, &err) ? 0 : gb_options_fail(&err);
     }
     g_strfreev(words);

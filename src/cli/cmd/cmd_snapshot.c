@@ -19,6 +19,7 @@
 #include "figures/provenance.h"
 #include "figures/sequence/sequence.h"
 #include "figures/states.h"
+#include "io/rundir_files.h"
 
 /* The options of the command line. */
 struct request {
@@ -214,7 +215,8 @@ static bool take_picture(const struct request *request, char **words,
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             request->output);
     }
-    return write_picture(request, &packing_image, words, err);
+    return gb_rundir_files_spare(request->output, err) &&
+           write_picture(request, &packing_image, words, err);
 }
 
 /* The quantities of --color, for its help; g_free. */
@@ -314,9 +316,7 @@ int gb_cmd_snapshot(int argc, char **argv)
         free_request(&request);
         return status;
     }
-    /* a file beyond its size limit is an error of write() */
-    signal(SIGXFSZ, SIG_IGN);
-    signal(SIGPIPE, SIG_IGN); /* and so is the pipe of an ffmpeg that has ended */
+    signal(SIGPIPE, SIG_IGN); /* the pipe of an ffmpeg that has ended is an error, too */
     const bool done = take_picture(&request, words, &err);
     g_strfreev(words);
     free_request(&request);

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -87,7 +86,6 @@ static bool perform_study(const char *directory, struct gb_error *err)
         "# greenbody " GB_VERSION "\n"
         "# steps in sqrt(m/(E d)), of steepest in 1/(E d); ratio: measured / theory\n"
         "method,scene,law,damping,closed_form,theory,measured,ratio,used\n");
-    signal(SIGXFSZ, SIG_IGN);
     const bool good = measure(csv, err) && write_csv(csv, directory, err);
     g_string_free(csv, TRUE);
     return good;
@@ -100,7 +98,7 @@ struct scene {
     gboolean quiet;
     GString *csv;
     int rows, rows_most, missed;
-    char method[16]; /* the least margin so far: its method ... */
+    char method[16];    /* the least margin so far: its method ... */
     double least, step; /* ... measured / used, and the step that was measured */
 };
 
@@ -113,9 +111,10 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         gb_visible_put(stdout, "method     p, MPa  density  damping    theory  measured  "
                                "    used  margin\n");
     }
-    gb_visible_print(stdout, "%-8s  %7.4g  %7.4f  %7.2g  %8.4g  %8.4g  %8.4g  %6.2f  %s%s\n",
-                     row->method, 1e-6 * row->p_pa, row->density, row->damping, row->theory,
-                     row->measured, row->used, margin,
+    gb_visible_print(stdout,
+                     "%-8s  %7.4g  %7.4f  %7.2g  %8.4g  %8.4g  %8.4g  %6.2f  %s%s\n",
+                     row->method, 1e-6 * row->p_pa, row->density, row->damping,
+                     row->theory, row->measured, row->used, margin,
                      gb_stability_run_stable(row) ? "stable" : "unstable",
                      row->in_use ? ", in use" : "");
     fflush(stdout);
@@ -125,8 +124,8 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         g_strlcpy(scene->method, row->method, sizeof scene->method);
     }
     if (!scene->quiet && !isatty(STDOUT_FILENO)) { /* as the workbench reads it */
-        gb_visible_line(stderr, "%d of %d states: %s, p %.4g MPa", scene->rows, scene->rows_most,
-                        row->method, 1e-6 * row->p_pa);
+        gb_visible_line(stderr, "%d of %d states: %s, p %.4g MPa", scene->rows,
+                        scene->rows_most, row->method, 1e-6 * row->p_pa);
     }
     gb_stability_run_add(scene->csv, row);
     return write_csv(scene->csv, scene->directory, err);

@@ -11,6 +11,7 @@
 #include "figures/provenance.h"
 #include "figures/sequence/frame_writer.h"
 #include "figures/states.h"
+#include "io/rundir_files.h"
 
 enum { MAX_FRAMES = 10000 };
 
@@ -29,7 +30,7 @@ static bool is_numbered(const char *output)
 
 static bool check_target(const char *path, bool force, struct gb_error *err)
 {
-    return gb_file_check_target(path, err) &&
+    return gb_rundir_files_spare(path, err) && gb_file_check_target(path, err) &&
            (force || !g_file_test(path, G_FILE_TEST_EXISTS) ||
             gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it", path));
 }
@@ -102,12 +103,9 @@ static bool set_common_scales(struct job *job, struct gb_error *err)
 static bool open_writer(struct job *job, const struct gb_state *first,
                         const struct gb_image *image, struct gb_error *err)
 {
-    const struct gb_frame_output output = {job->sequence->output,
-                                           job->packing_image,
-                                           image->width,
-                                           image->height,
-                                           (int)job->paths->len,
-                                           job->sequence->frames_per_s};
+    const struct gb_frame_output output = {
+        job->sequence->output, job->packing_image,   image->width,
+        image->height,         (int)job->paths->len, job->sequence->frames_per_s};
     return job->methods->open(&job->writer, &output, first, err);
 }
 

@@ -38,7 +38,8 @@ static double bed_radius(const struct gb_state *state, const struct gb_bed_law *
     const double star = gb_law_hertz_radius(state->radius[state->pair[2 * k]],
                                             state->radius[state->pair[2 * k + 1]]);
     const bool flowed =
-        law->storakers && deepest > gb_law_storakers_transition(&law->normal, star);
+        law->storakers && (law->normal.printed ||
+                           deepest > gb_law_storakers_transition(&law->normal, star));
     return gb_bed_contacts_radius(law, star, flowed ? deepest : fmax(overlap, 0.0));
 }
 

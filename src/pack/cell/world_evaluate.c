@@ -63,8 +63,8 @@ static bool check_result(struct gb_engine *engine, struct gb_error *err)
     if (overlap > GB_OVERLAP_MAX) {
         return gb_error_set(
             err, GB_ERR_GUARD,
-            "two particles overlap by %.3g d: the strain step is too large "
-            "or the pressure beyond the contact laws",
+            "two particles overlap by %.3g of the smaller one's diameter: the strain step "
+            "is too large or the pressure beyond the contact laws",
             overlap);
     }
     return true;

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/team/team.h"
+#include "base/vec.h"
 #include "pack/die/bed_list.h"
 #include "pack/die/bed_sweep.h"
 #include "pack/die/bed_welds.h"
@@ -309,6 +310,24 @@ int64_t gb_bed_escaped(const struct gb_bed *bed)
         }
     }
     return -1;
+}
+
+double gb_bed_deepest(const struct gb_bed *bed, int64_t pair[2])
+{
+    double deepest = 0.0;
+    for (int64_t slot = 0; slot < bed->pairs.count; slot++) {
+        const int32_t i = bed->pairs.first[slot], j = bed->pairs.other[slot];
+        const double *a = bed->position[i], *b = bed->position[j];
+        const double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        const double overlap =
+            (a[3] + b[3] - gb_vec_length(r)) / (2.0 * fmin(a[3], b[3]));
+        if (overlap > deepest) {
+            deepest = overlap;
+            pair[0] = i;
+            pair[1] = j;
+        }
+    }
+    return deepest;
 }
 
 double gb_bed_solid_volume(const struct gb_bed *bed)

@@ -110,6 +110,10 @@ void gb_bed_invalidate_lists(struct gb_bed *bed);
 /* First particle that is not a number or beyond a wall; -1: none. */
 int64_t gb_bed_escaped(const struct gb_bed *bed);
 
+/* Largest overlap of the listed pairs, in diameters of the smaller particle, and its two
+ * particles; 0: none. */
+double gb_bed_deepest(const struct gb_bed *bed, int64_t pair[2]);
+
 /* Sums over a bed, right after an evaluation. */
 double gb_bed_solid_volume(const struct gb_bed *bed);
 struct gb_bed_kinetic_energy {

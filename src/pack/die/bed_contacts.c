@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/portable.h"
 
 enum { PLANES = 10 };
 
@@ -36,11 +35,8 @@ void gb_bed_contacts_finish(struct gb_bed_contacts *contacts)
 
 double gb_bed_contacts_radius(const struct gb_bed_law *law, double star, double overlap)
 {
-    const bool plastic =
-        law->storakers && overlap > gb_law_storakers_transition(&law->normal, star);
-    const double twice_c2 =
-        plastic ? 2.0 * 1.43 * gb_portable_exp(-0.97 * law->normal.exponent) : 1.0;
-    return sqrt(twice_c2 * star * overlap);
+    return law->storakers ? gb_law_storakers_contact(&law->normal, star, overlap)
+                          : sqrt(star * overlap);
 }
 
 void gb_bed_contacts_set(struct gb_bed_contacts *c, int64_t slot,

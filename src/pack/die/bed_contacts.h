@@ -38,7 +38,7 @@ bool gb_bed_contacts_init(struct gb_bed_contacts *contacts, int64_t room,
 void gb_bed_contacts_finish(struct gb_bed_contacts *contacts);
 
 /* Radius of a contact that is loaded to this overlap, at effective radius R*: Hertz'
- * a^2 = R* h, Storakers' a^2 = 2 c^2 R* h with c^2 = 1.43 exp(-0.97 m), P3 (17). */
+ * a^2 = R* h or gb_law_storakers_contact. */
 double gb_bed_contacts_radius(const struct gb_bed_law *law, double star, double overlap);
 
 /* Constants of slot for a pair of radii and masses (INFINITY: a wall), no history. */

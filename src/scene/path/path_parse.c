@@ -115,6 +115,11 @@ static bool set_radial(struct gb_path_reading *in, unsigned *own)
         return false;
     }
     gb_path_words_quantity(&in->words, GB_DIM_NONE, &ratio);
+    if (ratio == 0.0) {
+        return gb_error_set(in->err, GB_ERR_INPUT,
+                            "'radial 0': a share must not be 0; triaxial holds the "
+                            "others at a pressure");
+    }
     *own = lateral(in);
     for (int k = 0; k < 3; k++) {
         if ((*own >> k & 1u) != 0) {
@@ -133,6 +138,7 @@ static bool set_strain(struct gb_path_reading *in, unsigned *own)
         struct gb_leg_component control = {GB_LEG_STRAIN, 1.0, -1};
         int component = -1;
         if (!gb_path_reading_component(in, &component) ||
+            !gb_path_reading_give(in, component) ||
             !gb_path_reading_number(in, &control.value)) {
             return false;
         }
@@ -334,8 +340,13 @@ static bool read_leg(struct gb_path_reading *in)
     if (named && !gb_path_reading_controls(in, own)) {
         return false;
     }
-    if (!(cycle ? gb_path_reading_reversals(in) : shorthand->end(in)) ||
-        !gb_path_reading_at(in, own)) {
+    if (!(cycle ? gb_path_reading_reversals(in) : shorthand->end(in))) {
+        return false;
+    }
+    if (named && strcmp(gb_path_words_peek(&in->words), "at") == 0) {
+        return gb_error_set(in->err, GB_ERR_INPUT, "'at': must be given once in a leg");
+    }
+    if (!gb_path_reading_at(in, own)) {
         return false;
     }
     return gb_path_words_peek(&in->words)[0] == '\0' ||

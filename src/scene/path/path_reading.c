@@ -8,8 +8,8 @@ bool gb_path_reading_expected(struct gb_path_reading *in, const char *what)
     const char *word = gb_path_words_peek(&in->words);
     return word[0] != '\0'
                ? gb_error_set(in->err, GB_ERR_INPUT, "'%.24s': must be %s", word, what)
-               : gb_error_set(in->err, GB_ERR_INPUT, "ends too early: must continue with %s",
-                              what);
+               : gb_error_set(in->err, GB_ERR_INPUT,
+                              "ends too early: must continue with %s", what);
 }
 
 /* A component that exists in this scene. */
@@ -24,6 +24,16 @@ bool gb_path_reading_component(struct gb_path_reading *in, int *component)
     return gb_path_reading_expected(in, in->dimension == 3
                                             ? "x, y, z, xy, xz or yz"
                                             : "x, z or xz with scene.dimension = 2");
+}
+
+bool gb_path_reading_give(struct gb_path_reading *in, int component)
+{
+    if ((in->given >> component & 1u) != 0) {
+        return gb_error_set(in->err, GB_ERR_INPUT, "'%s': must be given once in a leg",
+                            gb_path_component_name(component));
+    }
+    in->given |= 1u << component;
+    return true;
 }
 
 static bool read_pressure(struct gb_path_reading *in, double *value)
@@ -150,6 +160,9 @@ static bool read_members(struct gb_path_reading *in, unsigned *members)
 {
     for (int next = gb_path_words_component(&in->words); next >= 0;
          next = gb_path_words_component(&in->words)) {
+        if (!gb_path_reading_give(in, next)) {
+            return false;
+        }
         *members |= 1u << next;
         if (strcmp(gb_path_words_peek(&in->words), "by") == 0) {
             return true;
@@ -175,6 +188,10 @@ static bool read_value(struct gb_path_reading *in, struct gb_leg_component *cont
             in, by ? "a share of the change of another component, as in by 0.5 z"
                    : "a pressure (50 MPa), a share of another component (0.5 z) or "
                      "'held'");
+    }
+    if (control->value == 0.0) {
+        return gb_error_set(in->err, GB_ERR_INPUT,
+                            "'0': a share must not be 0; 0 MPa and held are values");
     }
     return gb_path_reading_component(in, &control->of);
 }

@@ -11,8 +11,12 @@ struct gb_path_reading {
     struct gb_leg *leg;
     const struct gb_path *before; /* the legs in front of it */
     int dimension;
+    unsigned given; /* bits of the components that the leg has named */
     struct gb_error *err;
 };
+
+/* Marks a component as named.  Errors: named before. */
+bool gb_path_reading_give(struct gb_path_reading *in, int component);
 
 /* Always false. */
 bool gb_path_reading_expected(struct gb_path_reading *in, const char *what);

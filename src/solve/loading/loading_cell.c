@@ -9,16 +9,16 @@
 #include "pack/structure/initial_structure.h"
 #include "scene/tolerances.h"
 
-/* Overlap of pair k of particle i, in mean diameters of the two. */
+/* Overlap of pair k of particle i, in diameters of the smaller one. */
 static double overlap_of(const struct gb_world *world, int64_t i, int64_t k)
 {
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
     const double *x = gb_world_position(world), *y = x + 3 * near->other[k];
     double r[3] = {x[3 * i] - y[0], x[3 * i + 1] - y[1], x[3 * i + 2] - y[2]};
     gb_cell_nearest(gb_world_cell(world), r);
-    const double sum =
-        gb_world_diameter(world, i) + gb_world_diameter(world, near->other[k]);
-    return 1.0 - 2.0 * gb_vec_length(r) / sum;
+    const double a = gb_world_diameter(world, i);
+    const double b = gb_world_diameter(world, near->other[k]);
+    return (0.5 * (a + b) - gb_vec_length(r)) / fmin(a, b);
 }
 
 /* A packing of a file whose pairs overlap deeper than contact laws hold; err: any other

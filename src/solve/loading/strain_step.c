@@ -1,5 +1,8 @@
 #include "solve/loading/strain_step.h"
 
+#include "pack/cell/world_measure.h"
+#include "scene/tolerances.h"
+
 bool gb_strain_step_init(struct gb_strain_step *step, const struct gb_model *model,
                          struct gb_error *err)
 {
@@ -121,6 +124,13 @@ enum gb_strain_step_outcome gb_strain_step_check_jumps(struct gb_strain_step *st
     char text[GB_EVENT_TEXT] = "";
     if (!step->have_good) {
         return GB_STRAIN_STEP_RELAXED;
+    }
+    const double density = gb_world_measure_density(step->world);
+    if (density > GB_DENSITY_MAX) {
+        gb_error_set(err, GB_ERR_GUARD,
+                     "relative density %.6g: the contact laws hold up to %g", density,
+                     GB_DENSITY_MAX);
+        return stop(step);
     }
     const struct gb_nonaffine motion = gb_nonaffine_since(step->world, step->good);
     if (gb_guard_nonaffine(&step->guard, &motion, text, sizeof text) == GB_GUARD_RETRY) {

@@ -135,18 +135,27 @@ static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_b
     gb_error_set(err, GB_ERR_GUARD,
                  "relative density %.6g under the punch: the contact laws hold up to %g; "
                  "accepted: a lower loading.until or a higher material.young",
-                 density, GB_DIE_DENSITY_MAX);
+                 density, GB_DENSITY_MAX);
     return GB_STEP_STOPPED;
 }
 
-/* No state with a particle outside is kept; lists have no part in it. */
+/* No state is kept with a particle outside, or with two of them deep in each other. */
 static bool find_escape(const struct gb_bed *bed, char *why, size_t size)
 {
+    int64_t pair[2] = {-1, -1};
     const int64_t lost = gb_bed_escaped(bed);
     if (lost >= 0) {
         write_escape(bed, lost, why, size);
+        return true;
     }
-    return lost >= 0;
+    const double overlap = gb_bed_deepest(bed, pair);
+    if (overlap > GB_OVERLAP_MAX) {
+        snprintf(why, size,
+                 "particles %lld and %lld overlap by %.3g of the smaller one's diameter",
+                 (long long)pair[0], (long long)pair[1], overlap);
+        return true;
+    }
+    return false;
 }
 
 /* What a step may not leave behind, checked at every step: MORE if nothing does. */
@@ -161,7 +170,7 @@ static enum gb_step_outcome check_punch(struct gb_die_stages *stages, struct gb_
             "the powder has thrown off the punch, which is light (die.punch_mass)", text,
             size, err);
     }
-    if (!(density > GB_DIE_DENSITY_MAX)) {
+    if (!(density > GB_DENSITY_MAX)) {
         return GB_STEP_MORE;
     }
     return find_escape(bed, why, sizeof why)
