@@ -204,7 +204,7 @@ refused 'a link to one' "$greenbody" export run --format csv --force -o link
 kept=$(ls run/snapshots | head -1)
 refused 'a kept state' "$greenbody" export run --format csv --force -o "run/snapshots/$kept"
 refused 'by a figure' "$greenbody" plot run --figure densification --force -o run/curve.csv
-is 'the run is whole' "$greenbody" verify run --quiet
+is 'the run is whole' "$greenbody" verify run
 (
     ulimit -f 1
     export_run --format csv -o large.csv

@@ -167,9 +167,9 @@ if 'deepest' in want:
         fail('contacts: radii of the law')
 if 'bed_deepest' in want:
     # Hertz' a^2 = R* h; of a contact that has flowed 2 c^2 R* h at its deepest overlap,
-    # c^2 = 1.43 exp(-0.97 m) with m = 0.2
+    # c^(2 + m) = 1.43 exp(-0.97 m) with m = 0.2
     square = contacts['radius_nm'] ** 2 / want['reduced']
-    plastic = 2.86 * np.exp(-0.97 * 0.2) * want['bed_deepest']
+    plastic = 2.0 * (1.43 * np.exp(-0.97 * 0.2)) ** (2.0 / 2.2) * want['bed_deepest']
     flowed = np.abs(square - plastic) < 1e-9 * plastic
     elastic = np.abs(square - np.maximum(contacts['overlap_nm'], 0.0)) < 1e-9 * plastic
     if not flowed.any() or not elastic.any() or not np.all(flowed | elastic):

@@ -447,6 +447,83 @@ static void test_column(void)
     gb_image_destroy(image);
 }
 
+enum { MANY = 300000, PIECE = 15000 };
+
+/* A noisy curve, or a cloud, of many points with bars. */
+static void fill_many(double *x, double *y, double *error, bool cloud)
+{
+    GRand *random = g_rand_new_with_seed(5);
+    for (int k = 0; k < MANY; k++) {
+        const double noise = g_rand_double(random) - 0.5;
+        x[k] = cloud ? g_rand_double(random) : (double)k / MANY;
+        y[k] = cloud ? 0.5 + 0.9 * noise : 0.3 + 0.4 * x[k] * x[k] + 0.02 * noise;
+        error[k] = k % 1000 == 7 ? 0.1 * g_rand_double(random) : 0.001;
+    }
+    g_rand_free(random);
+}
+
+/* A figure of many points is one of few: a small file, with the same ink as its pieces, of
+ * which none has points to leave out. */
+static void test_many(void)
+{
+    double *x = g_new(double, MANY), *y = g_new(double, MANY),
+           *error = g_new(double, MANY);
+    char *path = g_build_filename(g_get_tmp_dir(), "figure-many.svg", NULL);
+    for (int kind = GB_FIGURE_LINE; kind <= GB_FIGURE_ARROWS; kind++) {
+        for (int cloud = 0; cloud < (kind == GB_FIGURE_POINTS ? 2 : 1); cloud++) {
+            const bool bars = kind == GB_FIGURE_POINTS && !cloud;
+            struct gb_figure_curve whole = {
+                .kind = (enum gb_figure_kind)kind, .count = MANY, .x = x, .y = y};
+            struct gb_figure_curve piece[MANY / PIECE];
+            struct gb_image *image[2] = {NULL, NULL};
+            struct gb_figure_layout layout;
+            struct gb_error err = {0};
+            GStatBuf info;
+            fill_many(x, y, error, cloud);
+            whole.error = bars ? error : NULL;
+            for (int k = 0; kind == GB_FIGURE_ARROWS && k < MANY; k++) {
+                y[k] = k % 3 == 2 ? (double)NAN : y[k];
+            }
+            for (size_t p = 0; p < G_N_ELEMENTS(piece); p++) {
+                piece[p] = whole;
+                piece[p].x += p * PIECE;
+                piece[p].y += p * PIECE;
+                piece[p].error = bars ? error + p * PIECE : NULL;
+                piece[p].count = PIECE + (p + 1 < G_N_ELEMENTS(piece));
+            }
+            struct gb_figure figure = {.x = {"x", false, 0.0, 1.0},
+                                       .y = {"y", false, 0.0, 1.0},
+                                       .curve = &whole,
+                                       .count = 1};
+            g_assert_true(
+                gb_figure_render(&image[0], &figure, WIDE, HIGH, &layout, &err));
+            g_assert_true(gb_figure_write_svg(&figure, WIDE, HIGH, NULL, 0, path, &err));
+            figure.curve = piece;
+            figure.count = G_N_ELEMENTS(piece);
+            g_assert_true(
+                gb_figure_render(&image[1], &figure, WIDE, HIGH, &layout, &err));
+            g_assert_cmpint(g_stat(path, &info), ==, 0);
+            int different = 0;
+            for (int k = 0; k < 4 * WIDE * HIGH; k++) {
+                different += abs(image[0]->rgba[k] - image[1]->rgba[k]) > 48;
+            }
+            g_test_message("kind %d, cloud %d: %d kB, %d differ", kind, cloud,
+                           (int)(info.st_size / 1024), different);
+            g_assert_cmpint((int)(info.st_size >> 20), <, 6);
+            if (kind != GB_FIGURE_STEPS) { /* pieces are closed at their ends */
+                g_assert_cmpint(different, <, 4 * WIDE * HIGH / 200);
+            }
+            gb_image_destroy(image[0]);
+            gb_image_destroy(image[1]);
+        }
+    }
+    g_unlink(path);
+    g_free(path);
+    g_free(x);
+    g_free(y);
+    g_free(error);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -465,5 +542,6 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/figure/styles", test_styles);
     g_test_add_func("/draw/figure/black", test_black);
     g_test_add_func("/draw/figure/column", test_column);
+    g_test_add_func("/draw/figure/many", test_many);
     return g_test_run();
 }

@@ -1,6 +1,8 @@
 #include "draw/figure/figure_curve.h"
 
+#include <glib.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "draw/figure/figure_marker.h"
 
@@ -250,8 +252,238 @@ static void draw_arrows(cairo_t *cairo, const struct gb_figure_layout *layout,
     }
 }
 
+/* Curves of more points than print can show are thinned.  Of all points of a line that follow
+ * each other in one column of the page, the first and the last stay and those that reach
+ * highest and lowest, errors included: the line covers the same dots.  Of points in one cell
+ * of the page the one with the longest bars stays. */
+enum { POINTS_FULL = 20000, CELLS_MOST = 10000 };
+
+/* Width of columns and least width of cells, points: a dot at 360 per inch. */
+static const double column_width = 0.2, cell_least = 0.4, cell_most = 3.2;
+
+/* The points that stay, in a copy of a curve. */
+struct thinned {
+    GArray *x, *y, *error, *x_error;
+};
+
+static void keep(struct thinned *kept, const struct gb_figure_curve *curve, size_t k)
+{
+    g_array_append_val(kept->x, curve->x[k]);
+    g_array_append_val(kept->y, curve->y[k]);
+    if (curve->error != NULL) {
+        g_array_append_val(kept->error, curve->error[k]);
+    }
+    if (curve->x_error != NULL) {
+        g_array_append_val(kept->x_error, curve->x_error[k]);
+    }
+}
+
+/* Half the bar of a point; 0: none. */
+static double reach_of(const double *error, size_t k)
+{
+    return error != NULL && error[k] > 0.0 ? error[k] : 0.0;
+}
+
+static int compare_sizes(const void *a, const void *b)
+{
+    const size_t one = *(const size_t *)a, other = *(const size_t *)b;
+    return (one > other) - (one < other);
+}
+
+/* The points [from, to) lie in one column. */
+static void keep_column(struct thinned *kept, const struct gb_figure_curve *curve,
+                        size_t from, size_t to)
+{
+    size_t of[6] = {from, from, from, from, from, to - 1};
+    for (size_t k = from; k < to; k++) {
+        const double reach = reach_of(curve->error, k);
+        of[1] = curve->y[k] > curve->y[of[1]] ? k : of[1];
+        of[2] = curve->y[k] < curve->y[of[2]] ? k : of[2];
+        of[3] = curve->y[k] + reach > curve->y[of[3]] + reach_of(curve->error, of[3])
+                    ? k
+                    : of[3];
+        of[4] = curve->y[k] - reach < curve->y[of[4]] - reach_of(curve->error, of[4])
+                    ? k
+                    : of[4];
+    }
+    qsort(of, G_N_ELEMENTS(of), sizeof of[0], compare_sizes);
+    for (size_t i = 0; i < G_N_ELEMENTS(of); i++) {
+        if (i == 0 || of[i] != of[i - 1]) {
+            keep(kept, curve, of[i]);
+        }
+    }
+}
+
+static void thin_line(struct thinned *kept, const struct gb_figure_layout *layout,
+                      const struct gb_figure_curve *curve)
+{
+    bool gap = false;
+    for (size_t k = 0; k < curve->count;) {
+        double at[2];
+        if (!gb_figure_curve_position(layout, curve, k, at)) {
+            if (!gap) { /* one of them is as wide as many */
+                keep(kept, curve, k);
+            }
+            gap = true;
+            k++;
+            continue;
+        }
+        const double column = floor(at[0] / column_width);
+        const size_t from = k;
+        while (k < curve->count && gb_figure_curve_position(layout, curve, k, at) &&
+               floor(at[0] / column_width) == column) {
+            k++;
+        }
+        keep_column(kept, curve, from, k);
+        gap = false;
+    }
+}
+
+/* Cell along an axis of the page; positions outside of the frame, whose markers and bars may
+ * reach into it, are one. */
+static gsize cell_of(double at, double low, double high, double width)
+{
+    const double margin = 2.0 * gb_figure_marker_radius;
+    return (gsize)((fmin(fmax(at, low - margin), high + margin) - low + margin) / width);
+}
+
+/* The point of each cell with the longest bars, by cell. */
+static GHashTable *fill_cells(const struct gb_figure_layout *layout,
+                              const struct gb_figure_curve *curve, double width,
+                              size_t most)
+{
+    GHashTable *cells = g_hash_table_new(NULL, NULL);
+    for (size_t k = 0; k < curve->count && g_hash_table_size(cells) <= most; k++) {
+        double at[2];
+        if (!gb_figure_curve_position(layout, curve, k, at)) {
+            continue;
+        }
+        const gsize column = cell_of(at[0], layout->frame[0], layout->frame[2], width);
+        const gsize row = cell_of(at[1], layout->frame[1], layout->frame[3], width);
+        const gpointer cell = GSIZE_TO_POINTER((column << 20 | row) + 1);
+        const size_t there = GPOINTER_TO_SIZE(g_hash_table_lookup(cells, cell));
+        if (there == 0 ||
+            reach_of(curve->error, k) + reach_of(curve->x_error, k) >
+                reach_of(curve->error, there - 1) + reach_of(curve->x_error, there - 1)) {
+            g_hash_table_insert(cells, cell, GSIZE_TO_POINTER(k + 1));
+        }
+    }
+    return cells;
+}
+
+static void thin_points(struct thinned *kept, const struct gb_figure_layout *layout,
+                        const struct gb_figure_curve *curve)
+{
+    double width = cell_least;
+    GHashTable *cells = fill_cells(layout, curve, width, CELLS_MOST);
+    while (g_hash_table_size(cells) > CELLS_MOST && width < cell_most) {
+        g_hash_table_unref(cells);
+        width *= 2.0;
+        cells =
+            fill_cells(layout, curve, width, width < cell_most ? CELLS_MOST : SIZE_MAX);
+    }
+    bool *stays = g_new0(bool, curve->count);
+    GHashTableIter at_cell;
+    gpointer cell = NULL, point = NULL;
+    g_hash_table_iter_init(&at_cell, cells);
+    while (g_hash_table_iter_next(&at_cell, &cell, &point)) {
+        stays[GPOINTER_TO_SIZE(point) - 1] = true;
+    }
+    for (size_t k = 0; k < curve->count; k++) {
+        if (stays[k]) {
+            keep(kept, curve, k);
+        }
+    }
+    g_free(stays);
+    g_hash_table_unref(cells);
+}
+
+/* Pairs that begin and end in the same cells are one arrow. */
+static void thin_arrows(struct thinned *kept, const struct gb_figure_layout *layout,
+                        const struct gb_figure_curve *curve)
+{
+    GHashTable *seen = g_hash_table_new(NULL, NULL);
+    for (size_t k = 0; k + 1 < curve->count; k++) {
+        double a[2], b[2];
+        if (gb_figure_curve_position(layout, curve, k, a) &&
+            gb_figure_curve_position(layout, curve, k + 1, b)) {
+            gsize cell = 0;
+            for (int c = 0; c < 2; c++) {
+                const double low = layout->frame[c], high = layout->frame[c + 2];
+                cell = cell << 16 | cell_of(a[c], low, high, cell_most);
+                cell = cell << 16 | cell_of(b[c], low, high, cell_most);
+            }
+            if (g_hash_table_add(seen, GSIZE_TO_POINTER(cell))) {
+                const double none = NAN;
+                keep(kept, curve, k);
+                keep(kept, curve, k + 1);
+                g_array_append_val(kept->x, none);
+                g_array_append_val(kept->y, none);
+            }
+        }
+    }
+    g_hash_table_unref(seen);
+}
+
+static void draw(cairo_t *cairo, const struct gb_figure_layout *layout,
+                 const struct gb_figure_curve *curve);
+
+static void draw_thinned(cairo_t *cairo, const struct gb_figure_layout *layout,
+                         const struct gb_figure_curve *curve,
+                         void (*thin)(struct thinned *kept,
+                                      const struct gb_figure_layout *layout,
+                                      const struct gb_figure_curve *curve))
+{
+    GArray *column[4];
+    for (int c = 0; c < 4; c++) {
+        column[c] = g_array_new(FALSE, FALSE, sizeof(double));
+    }
+    struct thinned kept = {column[0], column[1], column[2], column[3]};
+    struct gb_figure_curve less = *curve;
+    thin(&kept, layout, curve);
+    less.count = kept.x->len;
+    less.x = (const double *)(const void *)kept.x->data;
+    less.y = (const double *)(const void *)kept.y->data;
+    less.error =
+        kept.error->len > 0 ? (const double *)(const void *)kept.error->data : NULL;
+    less.x_error =
+        kept.x_error->len > 0 ? (const double *)(const void *)kept.x_error->data : NULL;
+    draw(cairo, layout, &less);
+    for (int c = 0; c < 4; c++) {
+        g_array_unref(column[c]);
+    }
+}
+
 void gb_figure_curve_draw(cairo_t *cairo, const struct gb_figure_layout *layout,
                           const struct gb_figure_curve *curve)
+{
+    if (curve->count <= POINTS_FULL) {
+        draw(cairo, layout, curve);
+        return;
+    }
+    switch (curve->kind) {
+    case GB_FIGURE_POINTS:
+        draw_thinned(cairo, layout, curve, thin_points);
+        break;
+    case GB_FIGURE_ARROWS:
+        draw_thinned(cairo, layout, curve, thin_arrows);
+        break;
+    case GB_FIGURE_BOTH: { /* markers of points over a line of all */
+        struct gb_figure_curve line = *curve, points = *curve;
+        line.kind = GB_FIGURE_LINE;
+        line.error = line.x_error = NULL;
+        points.kind = GB_FIGURE_POINTS;
+        draw_thinned(cairo, layout, &line, thin_line);
+        draw_thinned(cairo, layout, &points, thin_points);
+        break;
+    }
+    default:
+        draw_thinned(cairo, layout, curve, thin_line);
+    }
+}
+
+static void draw(cairo_t *cairo, const struct gb_figure_layout *layout,
+                 const struct gb_figure_curve *curve)
 {
     const bool line = curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_FAINT;
     if (line && curve->error != NULL) {
