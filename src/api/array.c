@@ -47,6 +47,8 @@ void gb_array_forget(struct gb_array_source *packing)
     gb_state_destroy(packing->state);
     gb_alloc_free(packing->diameter);
     gb_alloc_free(packing->stress);
+    gb_state_gaps_finish(&packing->gaps);
+    packing->gaps_found = false;
     packing->state = NULL;
     packing->diameter = packing->stress = NULL;
     for (size_t k = 0; k < G_N_ELEMENTS(packing->angular); k++) {
@@ -297,15 +299,52 @@ LISTED(find_contact_radius, contact_radius, pair_count)
 LISTED(find_wall, wall, wall_count)
 LISTED(find_wall_force, wall_force, wall_count)
 
+/* The pairs across gaps, found where they are not yet.  NULL and err: those of
+ * gb_state_gaps_init. */
+static const struct gb_state_gaps *gaps_of(struct gb_array_source *packing,
+                                           struct gb_error *err)
+{
+    const struct gb_state *state = state_of(packing, err);
+    if (state && !packing->gaps_found) {
+        packing->gaps_found = gb_state_gaps_init(&packing->gaps, state, err);
+    }
+    return packing->gaps_found ? &packing->gaps : NULL;
+}
+
+static bool find_gap(struct gb_array_source *packing, struct rows *rows,
+                     struct gb_error *err)
+{
+    static const int32_t none;
+    const struct gb_state_gaps *gaps = gaps_of(packing, err);
+    if (gaps) {
+        rows->data = gaps->pair ? gaps->pair : &none;
+        rows->count = gaps->count;
+    }
+    return gaps != NULL;
+}
+
+static bool find_gap_force(struct gb_array_source *packing, struct rows *rows,
+                           struct gb_error *err)
+{
+    static const double none;
+    const struct gb_state_gaps *gaps = gaps_of(packing, err);
+    if (gaps) {
+        rows->data = gaps->force ? gaps->force : &none;
+        rows->count = gaps->count;
+    }
+    return gaps != NULL;
+}
+
 static bool find_stress(struct gb_array_source *packing, struct rows *rows,
                         struct gb_error *err)
 {
     const struct gb_state *state = state_of(packing, err);
-    if (state && !packing->stress) {
+    const struct gb_state_gaps *gaps = state ? gaps_of(packing, err) : NULL;
+    if (gaps && !packing->stress) {
         packing->stress =
             gb_alloc_array(6 * (size_t)state->count, sizeof *packing->stress, err);
         if (packing->stress) {
-            gb_state_stress_tensor(state, packing->stress);
+            gb_state_stress_tensor(state, gaps, packing->stress);
         }
     }
     if (!packing->stress) {
@@ -339,6 +378,10 @@ static const struct array_row table[] = {
      "contacts: 1 with a bridge"},
     {"contact_radius", GB_ARRAY_DOUBLE, 1, LENGTH, find_contact_radius,
      "contacts, d: of the contact, or of its bridge; of a state from a file"},
+    {"gap", GB_ARRAY_INT32, 2, PURE, find_gap,
+     "gaps x 2: pairs of particles that attract across a gap"},
+    {"gap_force", GB_ARRAY_DOUBLE, 3, FORCE, find_gap_force,
+     "gaps x 3, E d^2: attraction on the first"},
     {"wall", GB_ARRAY_INT32, 2, PURE, find_wall,
      "contacts with walls x 2: particle, wall (0 floor, 1 side, 2 punch, 3 funnel)"},
     {"wall_force", GB_ARRAY_DOUBLE, 3, FORCE, find_wall_force,

@@ -3,7 +3,7 @@
 
 #include "greenbody/array.h"
 #include "greenbody/status.h"
-#include "io/state/state.h"
+#include "io/state/state_gaps.h"
 #include "run/experiment.h"
 
 /* Arrays that the engine of a periodic cell has as arcs. */
@@ -14,7 +14,9 @@ struct gb_array_source {
     struct gb_experiment *experiment; /* under way; NULL: read from a file */
     struct gb_state
         *state; /* owned; under way a list of the contacts, when first needed */
-    double *diameter, *stress;         /* owned; computed when first needed */
+    double *diameter, *stress; /* owned; computed when first needed */
+    struct gb_state_gaps gaps; /* the same */
+    bool gaps_found;
     double *angular[GB_ARRAY_ANGULAR]; /* the same, of unequal particles */
 };
 

@@ -142,7 +142,7 @@ bool gb_packing_state_copy(const struct gb_loading *loading, struct gb_state **o
     }
     struct gb_state *state = *out;
     gb_point_measure_packing(loading, &state->point);
-    gb_state_record_pressed(state, model);
+    gb_state_record_model(state, model);
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
     state->seed = model->seed.value;

@@ -198,10 +198,14 @@ void gb_view_sampling_take_state(const struct gb_state *state, bool pressed,
         describe_die(state, start, sample);
     }
     note_start(state, pressed, start);
-    double *stress = gb_alloc_array((size_t)state->count, sizeof *stress, NULL);
+    struct gb_state_gaps gaps = {0};
+    double *stress = gb_state_gaps_init(&gaps, state, NULL)
+                         ? gb_alloc_array((size_t)state->count, sizeof *stress, NULL)
+                         : NULL;
     if (stress != NULL) {
-        gb_state_stress_mean(state, stress);
+        gb_state_stress_mean(state, &gaps, stress);
     }
+    gb_state_gaps_finish(&gaps);
     copy_front(state, start, stress, sample);
     gb_alloc_free(stress);
     if (!in_die) {

@@ -54,6 +54,11 @@ def state_arrays():
             arrays.update(bed_deepest=nm * record['bed/deepest'][:],
                           wall=file['wall'][:].reshape(-1, 2),
                           wall_force=nn * file['wall_force'][:])
+        arrays['dimension'] = file.attrs['dimension']
+        if 'world/history' in record:
+            arrays['stress'] = 1e-6 * np.concatenate(
+                [[file.attrs[name] for name in ('px_pa', 'py_pa', 'pz_pa')],
+                 file.attrs['shear_stress_pa']])
         cell, tilt = nm * file.attrs['cell_d'], nm * file.attrs['cell_tilt_d']
         arrays['cell'] = np.array([[cell[0], 0, 0], [tilt[0], cell[1], 0],
                                    [tilt[1], tilt[2], cell[2]]])
@@ -145,6 +150,22 @@ for name, other in [('fx_nN', 'fx_nN'), ('fz_nN', 'fz_nN'), ('normal_nN', 'norma
                     ('shear_nN', 'shear_nN'), ('radius_nm', 'radius'),
                     ('area_nm2', 'area'), ('bridge_radius_nm', 'bridge_radius')]:
     same(f'contacts of both tables: {name}', local[other], contacts[name])
+# attraction across gaps follows the contacts
+gaps = {name: column[len(want['pair']):] for name, column in contacts.items()}
+if np.any(gaps['overlap_nm'] >= 0.0) or np.any(gaps['normal_nN'] >= 0.0) or any(
+        np.any(gaps[name] != 0.0) for name in ('shear_nN', 'radius_nm', 'area_nm2', 'bridged')):
+    fail('gaps: one is no attraction across a gap')
+if 'stress' in want:
+    force, branch = vector(contacts, 'fx_nN fy_nN fz_nN'), vector(contacts, 'bx_nm by_nm bz_nm')
+    tensor = 1e3 * np.einsum('ka,kb->ab', force, branch) / np.linalg.det(want['cell'])
+    tensor = 0.5 * (tensor + tensor.T)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    weight = want['radius'] ** want['dimension']
+    mean = (weight[:, None] * stress).sum(axis=0) / weight.sum()
+    largest = np.nanmax(np.abs(want['stress']))
+    for what, value in ('pairs', tensor), ('particles', mean):
+        if np.nanmax(np.abs(value - want['stress'])) > 1e-6 * largest:
+            fail(f'{what}: {value} do not make up the stress {want["stress"]}')
+contacts = {name: column[:len(want['pair'])] for name, column in contacts.items()}
 same('contacts: pairs', vector(contacts, 'i j'), want['pair'] + 1.0)
 force, branch = vector(contacts, 'fx_nN fy_nN fz_nN'), vector(contacts, 'bx_nm by_nm bz_nm')
 same('contacts: forces', force, want['pair_force'])

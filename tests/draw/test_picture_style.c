@@ -80,7 +80,7 @@ static void test_pressure(void)
     double pressure[4];
     double sum = 0.0;
     double solid = 0.0;
-    gb_state_stress_mean(state, pressure);
+    gb_state_stress_mean(state, &(struct gb_state_gaps){0}, pressure);
     for (int i = 0; i < 4; i++) {
         sum += pressure[i] * pow(state->radius[i], 3.0);
         solid += pow(state->radius[i], 3.0);

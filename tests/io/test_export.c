@@ -106,9 +106,10 @@ static void test_contacts(void)
 static void test_stress(void)
 {
     struct gb_state *state = make_state();
+    const struct gb_state_gaps none = {0};
     double stress[4 * 6], mean[4], sum[6] = {0.0};
-    gb_state_stress_tensor(state, stress);
-    gb_state_stress_mean(state, mean);
+    gb_state_stress_tensor(state, &none, stress);
+    gb_state_stress_mean(state, &none, mean);
     for (int i = 0; i < 4; i++) {
         for (int c = 0; c < 6; c++) {
             sum[c] += stress[6 * i + c] / 4.0;

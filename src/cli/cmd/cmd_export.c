@@ -208,15 +208,17 @@ static char *describe(void)
     for (size_t i = 0; (format = gb_export_at(i)) != NULL; i++) {
         g_string_append_printf(text, "  %-13s %s\n", format->name, format->doc);
     }
-    g_string_append(text,
-                    "\nParticles with velocities, angular velocities, forces and "
-                    "torques where the run has\nthem; contacts with forces, areas and "
-                    "bridges.  Lengths in nm, velocities in m/s,\nforces in nN (pN in "
-                    "dumps), stresses in MPa, positive in compression.  Contacts\nare a "
-                    "dump of LAMMPS beside its formats, else a table.\n\n"
-                    "  greenbody export run --format extxyz --all -o run.xyz\n"
-                    "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"
-                    "    --contacts contacts.dump -o run.dump");
+    g_string_append(
+        text,
+        "\nParticles with velocities, angular velocities, forces and "
+        "torques where the run has\nthem; contacts with forces, areas and "
+        "bridges.  Lengths in nm, velocities in m/s,\nforces in nN (pN in "
+        "dumps), stresses in MPa, positive in compression.  Contacts\nare a "
+        "dump of LAMMPS beside its formats, else a table.  Pairs that attract across a\n"
+        "gap follow them, with a negative overlap.\n\n"
+        "  greenbody export run --format extxyz --all -o run.xyz\n"
+        "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"
+        "    --contacts contacts.dump -o run.dump");
     return g_string_free(text, FALSE);
 }
 

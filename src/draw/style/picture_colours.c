@@ -68,8 +68,7 @@ static bool colour_bridges(struct gb_picture_style *style, const struct gb_state
             number[state->pair[2 * k + 1]]++;
         }
     }
-    const bool good =
-        colour_counts(style, number, "bridges per particle", request, err);
+    const bool good = colour_counts(style, number, "bridges per particle", request, err);
     gb_alloc_free(number);
     return good;
 }
@@ -79,16 +78,19 @@ static bool colour_pressure(struct gb_picture_style *style, const struct gb_stat
                             struct gb_error *err)
 {
     double *value = gb_alloc_array(style->count, sizeof *value, err);
-    if (value == NULL) {
+    struct gb_state_gaps gaps = {0};
+    if (value == NULL || !gb_state_gaps_init(&gaps, state, err)) {
+        gb_alloc_free(value);
         return false;
     }
-    gb_state_stress_mean(state, value);
+    gb_state_stress_mean(state, &gaps, value);
+    gb_state_gaps_finish(&gaps);
     for (size_t i = 0; i < style->count; i++) {
         value[i] *= mpa_per_pa;
     }
     style->scale.title = "mean particle stress (MPa)";
-    const bool good = colour_values(style, value, GB_PICTURE_SCALE_FROM_DATA, mpa_per_pa,
-                                    request, err);
+    const bool good =
+        colour_values(style, value, GB_PICTURE_SCALE_FROM_DATA, mpa_per_pa, request, err);
     gb_alloc_free(value);
     return good;
 }

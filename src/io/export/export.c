@@ -62,16 +62,18 @@ bool gb_export_add(const struct gb_export_format *format, const struct gb_state 
         .nn = state->pascal_per_stress * metre * metre * 1e9,
         .stress = gb_alloc_array((size_t)state->count * 6, sizeof(double), err),
     };
-    if (frame.stress == NULL) {
-        return false;
+    bool good = frame.stress != NULL && gb_state_gaps_init(&frame.gaps, state, err);
+    if (!good) {
+        goto end;
     }
-    gb_state_stress_tensor(state, frame.stress);
-    bool good = true;
+    gb_state_stress_tensor(state, &frame.gaps, frame.stress);
     if (format->write != NULL) {
         format->write(&frame, particles, contacts);
     } else {
         good = format->write_binary(&frame, particles, contacts, err);
     }
+end:
+    gb_state_gaps_finish(&frame.gaps);
     gb_alloc_free(frame.stress);
     return good;
 }

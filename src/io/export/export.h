@@ -6,19 +6,20 @@
 
 #include <glib.h>
 
-#include "io/state/state.h"
+#include "io/state/state_gaps.h"
 
 /* States as files of other programs.  Lengths in nm, forces in nN, stresses in MPa, positive
  * in compression unless a format says otherwise; the file names its units and the run. */
 /* A state in the units of a file. */
 struct gb_export_frame {
     const struct gb_state *state;
-    double density_kg_m3; /* of the solid; NaN: unknown */
-    int64_t index;        /* of the frame, from 0 */
-    double *stress;       /* count x 6, Pa: xx, yy, zz, xy, xz, yz */
-    double nm;            /* of a reduced length */
-    double nn;            /* of a reduced force */
-    double ns;            /* of a reduced time; NaN: not known */
+    struct gb_state_gaps gaps; /* pairs that follow the contacts */
+    double density_kg_m3;      /* of the solid; NaN: unknown */
+    int64_t index;             /* of the frame, from 0 */
+    double *stress;            /* count x 6, Pa: xx, yy, zz, xy, xz, yz */
+    double nm;                 /* of a reduced length */
+    double nn;                 /* of a reduced force */
+    double ns;                 /* of a reduced time; NaN: not known */
 };
 
 struct gb_export_format {
@@ -39,7 +40,7 @@ const struct gb_export_format *gb_export_find(const char *name, struct gb_error 
 /* Row by row; NULL behind the last. */
 const struct gb_export_format *gb_export_at(size_t index);
 
-/* Appends a state to the texts of a format.  Errors: GB_ERR_MEMORY. */
+/* Appends a state to the texts of a format.  Errors: of gb_state_gaps_init. */
 bool gb_export_add(const struct gb_export_format *format, const struct gb_state *state,
                    double density_kg_m3, int64_t index, GString *particles,
                    GString *contacts, struct gb_error *err);

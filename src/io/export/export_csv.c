@@ -10,15 +10,16 @@ void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text)
     if (frame->index == 0) {
         g_string_append(text, "# ");
         gb_export_text_provenance(text, frame);
-        g_string_append(text,
-                        "\n# force on particle i, branch vector from j to the nearest "
-                        "image of i\nframe,i,j,fx_nN,fy_nN,fz_nN,normal_nN,bx_nm,by_nm,"
-                        "bz_nm,overlap_nm,bridged,shear_nN");
+        g_string_append(
+            text,
+            "\n# force on particle i, branch vector from j to the nearest "
+            "image of i; overlap negative: attraction across a gap\nframe,i,j,fx_nN,fy_nN,fz_nN,normal_nN,bx_nm,by_nm,"
+            "bz_nm,overlap_nm,bridged,shear_nN");
         g_string_append(text, frame->state->contact_radius
                                   ? ",radius_nm,area_nm2,bridge_radius_nm\n"
                                   : "\n");
     }
-    for (int64_t k = 0; k < frame->state->pair_count; k++) {
+    for (int64_t k = 0; k < gb_export_text_contacts(frame); k++) {
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
         g_string_append_printf(text, "%" PRId64 ",%" PRId64 ",%" PRId64 ",", frame->index,
                                contact.first + 1, contact.second + 1);

@@ -45,7 +45,7 @@ static void add_head(const struct gb_export_frame *frame, const char *what, int6
 
 static void add_contacts(const struct gb_export_frame *frame, GString *text)
 {
-    const int64_t count = frame->state->pair_count;
+    const int64_t count = gb_export_text_contacts(frame);
     add_head(frame, "ENTRIES", count, text);
     g_string_append(text, "ITEM: ENTRIES index i j fx_nN fy_nN fz_nN normal_nN bx by bz "
                           "overlap bridged shear_nN");

@@ -54,32 +54,46 @@ void gb_export_text_provenance(GString *text, const struct gb_export_frame *fram
     g_string_append(text, "MPa; units nm, ns, nN, MPa; stress positive in compression");
 }
 
+int64_t gb_export_text_contacts(const struct gb_export_frame *frame)
+{
+    return frame->state->pair_count + frame->gaps.count;
+}
+
 struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *frame,
                                                 int64_t k)
 {
     const struct gb_state *state = frame->state;
     const struct gb_cell cell = gb_state_cell(state);
-    struct gb_export_contact contact = {.first = state->pair[2 * k],
-                                        .second = state->pair[2 * k + 1],
-                                        .normal = frame->nn * state->pair_normal[k],
-                                        .bridged = state->pair_bridged[k] != 0};
+    const int64_t gap = k - state->pair_count;
+    const int32_t *pair = gap < 0 ? &state->pair[2 * k] : &frame->gaps.pair[2 * gap];
+    const double *force =
+        gap < 0 ? &state->pair_force[3 * k] : &frame->gaps.force[3 * gap];
+    struct gb_export_contact contact = {.first = pair[0],
+                                        .second = pair[1],
+                                        .bridged =
+                                            gap < 0 && state->pair_bridged[k] != 0};
     const double *a = &state->position[3 * contact.first];
     const double *b = &state->position[3 * contact.second];
     double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     gb_cell_nearest(&cell, r);
+    const double distance = gb_vec_length(r);
+    const double normal =
+        gap < 0 ? state->pair_normal[k] : gb_vec_dot(force, r) / distance;
+    contact.normal = frame->nn * normal;
     contact.overlap = frame->nm * (state->radius[contact.first] +
-                                   state->radius[contact.second] - gb_vec_length(r));
+                                   state->radius[contact.second] - distance);
     double across = 0.0;
-    const double along = state->pair_normal[k] / gb_vec_length(r);
     for (int c = 0; c < 3; c++) {
-        const double part = state->pair_force[3 * k + c] - along * r[c];
+        const double part = force[c] - normal / distance * r[c];
         across += part * part;
-        contact.force[c] = frame->nn * state->pair_force[3 * k + c];
+        contact.force[c] = frame->nn * force[c];
         contact.branch[c] = frame->nm * r[c];
     }
-    contact.shear = frame->nn * sqrt(across);
-    contact.radius =
-        state->contact_radius ? frame->nm * state->contact_radius[k] : (double)NAN;
+    contact.shear = gap < 0 ? frame->nn * sqrt(across) : 0.0;
+    if (gap < 0) {
+        contact.radius =
+            state->contact_radius ? frame->nm * state->contact_radius[k] : (double)NAN;
+    }
     contact.area = M_PI * contact.radius * contact.radius;
     contact.bridge_radius = contact.bridged ? contact.radius : 0.0;
     return contact;

@@ -28,7 +28,7 @@ struct gb_export_contact {
     double force[3];       /* on the first, nN */
     double normal, shear;  /* normal force, positive when pressed; force across, nN */
     double branch[3];      /* from the second to the first, the nearest image, nm */
-    double overlap;        /* nm */
+    double overlap;        /* nm; negative: a gap */
     bool bridged;
     /* NaN where the state does not have it: a and pi a^2 of the contact, which of a bridge
      * are those of the bridge; nm, nm^2 */
@@ -41,7 +41,10 @@ struct gb_export_contact {
 void gb_export_text_contact_end(GString *text, const struct gb_export_frame *frame,
                                 const struct gb_export_contact *contact, char between);
 
-/* Contact k of the pairs of a state. */
+/* Rows of contacts: those of the state, then the pairs across gaps, whose overlap is
+ * negative and whose radius is 0. */
+int64_t gb_export_text_contacts(const struct gb_export_frame *frame);
+/* Row k of them. */
 struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *frame,
                                                 int64_t k);
 

@@ -151,7 +151,7 @@ static void write_particles(struct vtk *vtk, const struct gb_export_frame *frame
 static void put_branches(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     const struct gb_state *state = frame->state;
-    const int64_t pairs = state->pair_count;
+    const int64_t pairs = gb_export_text_contacts(frame);
     double *points = numbers(vtk, pairs, 6);
     for (int64_t k = 0; vtk->good && k < pairs; k++) {
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
@@ -173,6 +173,30 @@ static double scalar_of(const struct gb_export_contact *contact, int column)
     return values[column];
 }
 
+/* Bridges and particles of the lines. */
+static void put_pairs(struct vtk *vtk, const struct gb_export_frame *frame)
+{
+    const struct gb_state *state = frame->state;
+    const int64_t pairs = gb_export_text_contacts(frame);
+    const size_t contacts = (size_t)state->pair_count, gaps = (size_t)frame->gaps.count;
+    const size_t room = (size_t)pairs + 1;
+    struct gb_error *err = vtk->good ? vtk->err : NULL;
+    uint8_t *bridged = gb_alloc_array(room, sizeof *bridged, err);
+    int32_t *particles = gb_alloc_array(2 * room, sizeof *particles, err);
+    vtk->good = vtk->good && bridged != NULL && particles != NULL;
+    if (vtk->good && contacts > 0) {
+        memcpy(bridged, state->pair_bridged, contacts * sizeof *bridged);
+        memcpy(particles, state->pair, 2 * contacts * sizeof *particles);
+    }
+    if (vtk->good && gaps > 0) {
+        memcpy(particles + 2 * contacts, frame->gaps.pair, 2 * gaps * sizeof *particles);
+    }
+    put(vtk, ROOT "CellData/bridged", GB_HDF_UINT8, pairs, 1, "1", bridged);
+    put(vtk, ROOT "CellData/particles", GB_HDF_INT32, pairs, 2, "1", particles);
+    gb_alloc_free(bridged);
+    gb_alloc_free(particles);
+}
+
 /* Columns of the lines, as far as the state has them. */
 static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *frame)
 {
@@ -183,7 +207,7 @@ static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *fram
         {ROOT "CellData/shear_nN", "nN"},   {ROOT "CellData/radius_nm", "nm"},
         {ROOT "CellData/area_nm2", "nm^2"}, {ROOT "CellData/bridge_radius_nm", "nm"}};
     const struct gb_state *state = frame->state;
-    const int64_t pairs = state->pair_count;
+    const int64_t pairs = gb_export_text_contacts(frame);
     const int count = state->contact_radius ? (int)G_N_ELEMENTS(columns) : 3;
     double *force = numbers(vtk, pairs, 3), *values = numbers(vtk, pairs, count);
     for (int64_t k = 0; vtk->good && k < pairs; k++) {
@@ -198,8 +222,7 @@ static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *fram
         put(vtk, columns[c].name, GB_HDF_DOUBLE, pairs, 1, columns[c].unit,
             values ? values + c * pairs : NULL);
     }
-    put(vtk, ROOT "CellData/bridged", GB_HDF_UINT8, pairs, 1, "1", state->pair_bridged);
-    put(vtk, ROOT "CellData/particles", GB_HDF_INT32, pairs, 2, "1", state->pair);
+    put_pairs(vtk, frame);
     gb_alloc_free(force);
     gb_alloc_free(values);
 }
@@ -207,7 +230,7 @@ static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *fram
 static void write_contacts(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     put_branches(vtk, frame);
-    put_cells(vtk, frame->state->pair_count, 2, LINE);
+    put_cells(vtk, gb_export_text_contacts(frame), 2, LINE);
     put_contact_data(vtk, frame);
 }
 

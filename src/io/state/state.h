@@ -47,6 +47,9 @@ struct gb_state {
     char preset[256];       /* title of the preset */
     uint64_t seed;
     char version[32];
+    /* Attraction across gaps (io/state/state_gaps.h): strength and shift of P1 (3), E d^2
+     * and d, and how far it reaches, d; 0: none, or a state of an earlier version. */
+    double attraction_strength, attraction_shift, attraction_cutoff;
     /* What pictures show beside the packing; states of earlier versions lack it. */
     double pressed[3];    /* 1: an axis along which the scene is pressed */
     double punch_height;  /* of the face of the upper punch of a die, d; NaN: none */

@@ -47,6 +47,9 @@ static const struct {
     size_t member;
     double low, high;
 } numbers[] = {
+    {"attraction_strength", 1, offsetof(struct gb_state, attraction_strength), 0.0, 1e9},
+    {"attraction_shift_d", 1, offsetof(struct gb_state, attraction_shift), 0.0, 1e9},
+    {"attraction_cutoff_d", 1, offsetof(struct gb_state, attraction_cutoff), 0.0, 1e9},
     {"pressed_axes", 3, offsetof(struct gb_state, pressed), 0.0, 1.0},
     {"punch_height_d", 1, offsetof(struct gb_state, punch_height), 0.0, 1e9},
     {"funnel_height_d", 1, offsetof(struct gb_state, funnel_height), 0.0, 1e9},

@@ -116,18 +116,21 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
     state->second_per_time = second_per_time(model);
-    gb_state_record_pressed(state, model);
+    gb_state_record_model(state, model);
     state->seed = model->seed.value;
     snprintf(state->preset, sizeof state->preset, "%s", params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }
 
-void gb_state_record_pressed(struct gb_state *state, const struct gb_model *model)
+void gb_state_record_model(struct gb_state *state, const struct gb_model *model)
 {
     const bool all = model->geometry == GB_GEOMETRY_ISOTROPIC;
     state->pressed[0] = all ? 1.0 : 0.0;
     state->pressed[1] = all || model->geometry == GB_GEOMETRY_BIAXIAL ? 1.0 : 0.0;
     state->pressed[2] = 1.0;
+    state->attraction_strength = model->dispersion.strength;
+    state->attraction_shift = model->dispersion.shift;
+    state->attraction_cutoff = model->terms.attraction ? model->numerics.cutoff : 0.0;
 }
 
 double gb_state_record_half_width(const double (*position)[4], int64_t count,

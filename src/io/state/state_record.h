@@ -16,8 +16,8 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
 void gb_state_record_walls(struct gb_state *state, const struct gb_die *die);
 double gb_state_record_half_width(const double (*position)[4], int64_t count,
                                   const struct gb_die *die);
-/* Axes along which a scene is pressed. */
-void gb_state_record_pressed(struct gb_state *state, const struct gb_model *model);
+/* Axes along which a scene is pressed, and the constants of its attraction. */
+void gb_state_record_model(struct gb_state *state, const struct gb_model *model);
 
 /* The same for gb_state_write alone: what is written row by row is not copied.  The record
  * must stay as it is until the state is destroyed. */

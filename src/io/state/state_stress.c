@@ -24,15 +24,29 @@ static double volume_ratio(const struct gb_state *state)
     return volume / solid;
 }
 
+/* A contact, or from pair_count on a pair across a gap. */
+struct pair {
+    const int32_t *particle;
+    const double *force;
+};
+
+static struct pair pair_at(const struct gb_state *state, const struct gb_state_gaps *gaps,
+                           int64_t k)
+{
+    const int64_t gap = k - state->pair_count;
+    return gap < 0 ? (struct pair){state->pair + 2 * k, state->pair_force + 3 * k}
+                   : (struct pair){gaps->pair + 2 * gap, gaps->force + 3 * gap};
+}
+
 /* Half of the symmetric product of force and branch vector of a pair, E d^3. */
 static void half_of_pair(const struct gb_state *state, const struct gb_cell *cell,
-                         int64_t k, double half[COMPONENTS])
+                         struct pair pair, double half[COMPONENTS])
 {
     static const int first[COMPONENTS] = {0, 1, 2, 0, 0, 1};
     static const int second[COMPONENTS] = {0, 1, 2, 1, 2, 2};
-    const double *a = &state->position[3 * state->pair[2 * k]];
-    const double *b = &state->position[3 * state->pair[2 * k + 1]];
-    const double *f = &state->pair_force[3 * k];
+    const double *a = &state->position[3 * pair.particle[0]];
+    const double *b = &state->position[3 * pair.particle[1]];
+    const double *f = pair.force;
     double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     gb_cell_nearest(cell, r);
     for (int c = 0; c < COMPONENTS; c++) {
@@ -41,16 +55,18 @@ static void half_of_pair(const struct gb_state *state, const struct gb_cell *cel
     }
 }
 
-void gb_state_stress_tensor(const struct gb_state *state, double *stress)
+void gb_state_stress_tensor(const struct gb_state *state,
+                            const struct gb_state_gaps *gaps, double *stress)
 {
     const double volume = volume_ratio(state);
     const struct gb_cell cell = gb_state_cell(state);
     memset(stress, 0, (size_t)state->count * COMPONENTS * sizeof *stress);
-    for (int64_t k = 0; k < state->pair_count; k++) {
+    for (int64_t k = 0; k < state->pair_count + gaps->count; k++) {
+        const struct pair pair = pair_at(state, gaps, k);
         double half[COMPONENTS];
-        half_of_pair(state, &cell, k, half);
+        half_of_pair(state, &cell, pair, half);
         for (int end = 0; end < 2; end++) {
-            const int32_t i = state->pair[2 * k + end];
+            const int32_t i = pair.particle[end];
             const double part = volume * pow(state->radius[i], state->dimension);
             for (int c = 0; c < COMPONENTS; c++) {
                 stress[COMPONENTS * i + c] += half[c] * state->pascal_per_stress / part;
@@ -59,18 +75,20 @@ void gb_state_stress_tensor(const struct gb_state *state, double *stress)
     }
 }
 
-void gb_state_stress_mean(const struct gb_state *state, double *stress)
+void gb_state_stress_mean(const struct gb_state *state, const struct gb_state_gaps *gaps,
+                          double *stress)
 {
     const double volume = volume_ratio(state);
     const struct gb_cell cell = gb_state_cell(state);
     memset(stress, 0, (size_t)state->count * sizeof *stress);
-    for (int64_t k = 0; k < state->pair_count; k++) {
+    for (int64_t k = 0; k < state->pair_count + gaps->count; k++) {
+        const struct pair pair = pair_at(state, gaps, k);
         double half[COMPONENTS];
-        half_of_pair(state, &cell, k, half);
+        half_of_pair(state, &cell, pair, half);
         const double mean =
             (half[0] + half[1] + half[2]) * state->pascal_per_stress / state->dimension;
         for (int end = 0; end < 2; end++) {
-            const int32_t i = state->pair[2 * k + end];
+            const int32_t i = pair.particle[end];
             stress[i] += mean / (volume * pow(state->radius[i], state->dimension));
         }
     }

@@ -1,0 +1,155 @@
+#include "io/state/state_gaps.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "law/law_unequal.h"
+#include "pack/list/list_build.h"
+
+/* Beyond the reach (d): rounding of positions. */
+static const double skin = 1e-9;
+
+/* A pair as one number that sorts like it. */
+static uint64_t key_of(int64_t i, int64_t j)
+{
+    return (uint64_t)(i < j ? i : j) << 32 | (uint64_t)(i < j ? j : i);
+}
+
+static int compare(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* The contacts, ascending; gb_alloc_free. */
+static uint64_t *contact_keys(const struct gb_state *state, struct gb_error *err)
+{
+    const size_t count = (size_t)state->pair_count;
+    uint64_t *key = gb_alloc_array(count + 1, sizeof *key, err);
+    bool sorted = true;
+    for (size_t k = 0; key && k < count; k++) {
+        key[k] = key_of(state->pair[2 * k], state->pair[2 * k + 1]);
+        sorted = sorted && (k == 0 || key[k - 1] < key[k]);
+    }
+    if (key && !sorted) {
+        qsort(key, count, sizeof *key, compare);
+    }
+    return key;
+}
+
+/* Positions inside the cell, then diameters; gb_alloc_free. */
+static double *place(const struct gb_state *state, const struct gb_cell *cell,
+                     struct gb_error *err)
+{
+    const size_t count = (size_t)state->count;
+    double *at = gb_alloc_array(4 * count, sizeof *at, err);
+    if (at) {
+        memcpy(at, state->position, 3 * count * sizeof *at);
+    }
+    for (size_t i = 0; at && i < count; i++) {
+        gb_cell_wrap(cell, at + 3 * i);
+        at[3 * count + i] = 2.0 * state->radius[i];
+    }
+    return at;
+}
+
+/* Force on the first of two particles at this branch vector; false beyond the reach. */
+static bool attract(const struct gb_state *state, const int32_t pair[2],
+                    const double r[3], double force[3])
+{
+    const struct gb_law_rod no_rod = {0};
+    const struct gb_law_bridge no_bridge = {0};
+    const struct gb_law_dispersion dispersion = {.strength = state->attraction_strength,
+                                                 .shift = state->attraction_shift};
+    const double first = 2.0 * state->radius[pair[0]];
+    const double second = 2.0 * state->radius[pair[1]];
+    const double distance = gb_vec_length(r);
+    struct gb_law_unequal law;
+    if (distance - 0.5 * (first + second) >= state->attraction_cutoff - 1.0) {
+        return false;
+    }
+    gb_law_unequal_init(&law, &no_rod, &no_bridge, &dispersion, first, second);
+    const double pull = gb_law_unequal_attraction(&law, distance);
+    for (int c = 0; c < 3; c++) {
+        force[c] = -pull * r[c] / distance;
+    }
+    return true;
+}
+
+/* Those pairs of particle i in a list that are no contacts. */
+static void append(const struct gb_state *state, const struct gb_neighbour_list *list,
+                   const struct gb_pair_list *pairs, const double *position, int64_t i,
+                   const uint64_t *contact, struct gb_state_gaps *gaps)
+{
+    for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+        const int32_t pair[2] = {(int32_t)i, pairs->other[k]};
+        const uint64_t key = key_of(pair[0], pair[1]);
+        double r[3], force[3];
+        for (int c = 0; c < 3; c++) {
+            r[c] = position[3 * i + c] - position[3 * (int64_t)pair[1] + c] +
+                   list->shift[pairs->image[k]][c];
+        }
+        if (!bsearch(&key, contact, (size_t)state->pair_count, sizeof key, compare) &&
+            attract(state, pair, r, force)) {
+            memcpy(gaps->pair + 2 * gaps->count, pair, sizeof pair);
+            memcpy(gaps->force + 3 * gaps->count, force, sizeof force);
+            gaps->count++;
+        }
+    }
+}
+
+static bool collect(struct gb_state_gaps *gaps, const struct gb_state *state,
+                    const struct gb_neighbour_list *list, const double *position,
+                    const uint64_t *contact, struct gb_error *err)
+{
+    const size_t most = (size_t)(list->near.pair_count + list->far.pair_count);
+    gaps->pair = gb_alloc_array(2 * most + 1, sizeof *gaps->pair, err);
+    gaps->force = gb_alloc_array(3 * most + 1, sizeof *gaps->force, err);
+    if (!gaps->pair || !gaps->force) {
+        return false;
+    }
+    for (int64_t i = 0; i < state->count; i++) {
+        append(state, list, &list->near, position, i, contact, gaps);
+        append(state, list, &list->far, position, i, contact, gaps);
+    }
+    return true;
+}
+
+bool gb_state_gaps_init(struct gb_state_gaps *gaps, const struct gb_state *state,
+                        struct gb_error *err)
+{
+    *gaps = (struct gb_state_gaps){0};
+    if (state->die_radius > 0.0 || state->attraction_cutoff <= 1.0) {
+        return true;
+    }
+    const struct gb_cell cell = gb_state_cell(state);
+    const struct gb_list_build_range range = {state->attraction_cutoff, skin};
+    struct gb_neighbour_list list = {0};
+    uint64_t *contact = contact_keys(state, err);
+    double *at = contact ? place(state, &cell, err) : NULL;
+    bool done = at && gb_neighbour_list_init(&list, state->count,
+                                             GB_NEIGHBOUR_LIST_TRANSPOSED, err);
+    for (int64_t i = 0; done && i < state->count; i++) {
+        const double diameter = at[3 * state->count + i];
+        list.diameter = diameter == 1.0 ? list.diameter : at + 3 * state->count;
+        list.largest = i > 0 && list.largest > diameter ? list.largest : diameter;
+    }
+    done = done && gb_list_build(&list, &cell, at, range, NULL, err) &&
+           collect(gaps, state, &list, at, contact, err);
+    gb_neighbour_list_finish(&list);
+    gb_alloc_free(contact);
+    gb_alloc_free(at);
+    if (!done) {
+        gb_state_gaps_finish(gaps);
+    }
+    return done;
+}
+
+void gb_state_gaps_finish(struct gb_state_gaps *gaps)
+{
+    gb_alloc_free(gaps->pair);
+    gb_alloc_free(gaps->force);
+    *gaps = (struct gb_state_gaps){0};
+}
