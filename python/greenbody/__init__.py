@@ -5,12 +5,12 @@
 >>> run.curve.density, run.curve.p_pa
 >>> run.contact_normal.max() * run.unit('contact_normal').si   # N
 
-`run` from begin to end, `Experiment` step by step, `sweep` over values and seeds, `load` for run
+`run` from begin to end, `press` the same as a call for a pool of processes, `Experiment` step by step, `sweep` over values and seeds, `load` for run
 directories and states, `law` for contact laws; `greenbody.parameters` is the table of all keys,
 `greenbody.presets()` the presets, `greenbody.arrays` the arrays of a packing.
 """
 from ._data import Curve, Packing, Unit, arrays, point_dtype
-from ._experiment import Bar, Experiment, run
+from ._experiment import Bar, Experiment, press, run
 from ._laws import law, laws
 from ._library import (CancelledError, GoalWarning, GreenbodyError, GuardError, InputError,
                        MachineError, NotConvergedError, OutOfMemoryError, lib)
@@ -23,5 +23,5 @@ __version__: str = lib.gb_library_version().decode()
 __all__ = ['Bar', 'CancelledError', 'Curve', 'Experiment', 'GoalWarning', 'GreenbodyError',
            'GuardError', 'InputError', 'MachineError', 'NotConvergedError', 'OutOfMemoryError',
            'Packing', 'Parameter', 'Parameters', 'Run', 'State', 'States', 'Sweep', 'SweepRun',
-           'Unit', 'arrays', 'law', 'laws', 'load', 'parameters', 'point_dtype', 'presets', 'run',
-           'sweep']
+           'Unit', 'arrays', 'law', 'laws', 'load', 'parameters', 'point_dtype', 'press', 'presets',
+           'run', 'sweep']

@@ -6,7 +6,7 @@ from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Tuple
 
 import numpy as np
 
-from ._library import Array, Handle, call, lib, strings
+from ._library import Array, Handle, call, encoded, lib, strings
 
 
 def _point_dtype() -> np.dtype:
@@ -43,6 +43,18 @@ class Curve(np.recarray):
     def loading(self) -> 'Curve':
         """The points of the loading branch."""
         return self[self['branch'] == 0]
+
+    def at_pressure(self, p_pa: float, member: str = 'density') -> float:
+        """A member of the points on loading where the pressure first reaches p_pa; NaN: never."""
+        loading = self.loading
+        above = np.flatnonzero(loading['p_pa'] >= p_pa)
+        if len(above) == 0:
+            return float('nan')
+        k = int(above[0])
+        if k == 0:
+            return float(loading[member][0])
+        p, y = loading['p_pa'][k - 1:k + 1], loading[member][k - 1:k + 1]
+        return float(y[0] + (y[1] - y[0]) * (p_pa - p[0]) / (p[1] - p[0]))
 
     @property
     def branch_name(self) -> np.ndarray:
@@ -89,10 +101,20 @@ arrays: Dict[str, str] = dict(zip(strings('array_name'), strings('array_doc')))
 _DTYPES = {0: np.dtype('f8'), 1: np.dtype('i4'), 2: np.dtype('u1')}
 
 
+def copied(owner: Handle, name: str) -> Tuple[np.ndarray, Unit]:
+    """A copy of an array of a simulation, whose memory the next advance changes or frees."""
+    with owner.lock:
+        array, unit = view(owner, name)
+        array = array.copy()
+    array.flags.writeable = False
+    return array, unit
+
+
 def view(owner: Handle, name: str) -> Tuple[np.ndarray, Unit]:
-    """The array of a simulation or state: its memory, read only, which keeps the owner."""
+    """The array of a state: its memory, read only, which keeps the state and never moves."""
     found = Array(size=ctypes.sizeof(Array))
-    call(f'{owner.kind}_array', owner, name.encode(), ctypes.byref(found))
+    with owner.lock:
+        call(f'{owner.kind}_array', owner, encoded(name), ctypes.byref(found))
     dtype = _DTYPES[found.type]
     shape = tuple(found.shape[:found.dimensions])
     strides = tuple(found.stride[:found.dimensions])

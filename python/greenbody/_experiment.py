@@ -14,18 +14,19 @@ import ctypes
 
 import numpy as np
 
-from ._data import Curve, Packing, Unit, read_points, view
+from ._data import Curve, Packing, Unit, copied, read_points
 from ._library import (ON_EVENT, ON_POINT, ON_PROGRESS, CancelledError, Error, GoalWarning,
-                       GreenbodyError, Handle, call, create, lib, path_of)
+                       GreenbodyError, GuardError, Handle, InputError, NotConvergedError,
+                       call, create, decoded, lib, path_of)
 from ._parameters import Keys, Parameters, Preset, keys_doc
-from ._states import Path, State, parameters_of
+from ._states import Path, Run, State, parameters_of
 
 Progress = Union[bool, Callable[[float, 'Experiment'], Any], None]
 
 NONE, DONE, STOPPED, CANCELLED, FAILED = range(5)
 ALL_POINTS = 2 ** 63 - 1
 
-#: arrays that are memory of the engine; the others are lists of the present contacts
+#: arrays that the engine has; the others are lists of the present contacts, made for all at once
 ENGINE = frozenset(('position', 'diameter', 'force', 'torque', 'velocity', 'spin', 'cell',
                     'tilt'))
 
@@ -66,9 +67,12 @@ class Experiment(Packing):
     >>> for point in e:
     ...     print(point['density'], e.contact_normal.max())
 
-    Arrays are memory of the engine, read only, true until the next advance: positions and
-    forces then show the new state, lists of contacts still the old one.  Positions may lie
-    outside of the periodic cell by any number of edges.
+    Arrays are read only, and keep their values over the next advance.  Positions may lie outside
+    of the periodic cell by any number of edges.
+
+    One thread at a time uses an experiment; `cancel` and the points are for any thread.  It
+    belongs to the process that made it: it cannot be pickled, and a child that inherits it by
+    fork can read its points and parameters and nothing else.
     """
 
     def __init__(self, preset: Preset = None, keys: Keys = None, *,
@@ -111,7 +115,7 @@ class Experiment(Packing):
         self._failure: Optional[BaseException] = None
         self._state: Optional[State] = None
         self._points: List[Curve] = []
-        self._busy = threading.Lock()
+        self._advances = False
         self.done = False
         # kept, so that the library can call them as long as the experiment exists
         self._calls = (ON_PROGRESS(self._on_progress), ON_EVENT(self._on_event))
@@ -121,7 +125,20 @@ class Experiment(Packing):
             lib.gb_simulation_on_event(handle, self._calls[1], None)
         #: the parameters as run
         self.parameters = parameters_of(handle)
-        self._changes = bool(self.parameters['loading.changes'])
+
+    def __reduce__(self) -> Any:
+        """Its memory, threads and files belong to its process."""
+        return self._handle.__reduce__()
+
+    @contextlib.contextmanager
+    def _alone(self) -> Iterator[None]:
+        """In turn with other threads; while one of them advances: RuntimeError."""
+        if not self._handle.lock.acquire(blocking=not self._advances):
+            raise RuntimeError('the experiment is advanced by another thread')
+        try:
+            yield
+        finally:
+            self._handle.lock.release()
 
     def _guarded(self, function: Callable[..., Any], *arguments: Any) -> None:
         """An exception in a callback, also KeyboardInterrupt, cancels the advance."""
@@ -152,7 +169,7 @@ class Experiment(Packing):
         self._guarded(self._progress or (lambda *_: None), share, self)
 
     def _on_event(self, _data: Any, _simulation: Any, step: int, text: bytes) -> None:
-        self._guarded(self._event or (lambda *_: None), step, text.decode())
+        self._guarded(self._event or (lambda *_: None), step, decoded(text))
 
     def advance(self, points: Optional[int] = 1) -> int:
         """Advances by so many recorded points; None: to the end.  Returns how many there were.
@@ -162,12 +179,16 @@ class Experiment(Packing):
         last two it can be advanced further.  A run that misses a goal warns
         (GoalWarning).
         """
-        if not self._busy.acquire(blocking=False):
-            raise RuntimeError('the experiment is advanced by another thread')
-        try:
-            return self._advance(ALL_POINTS if points is None else points)
-        finally:
-            self._busy.release()
+        if points is not None and not 0 <= points <= ALL_POINTS:
+            raise InputError(f'points = {points}: expected 0 to {ALL_POINTS}, or None')
+        with self._alone():
+            if self._advances:
+                raise RuntimeError('the experiment is advanced already')
+            self._advances = True
+            try:
+                return self._advance(ALL_POINTS if points is None else points)
+            finally:
+                self._advances = False
 
     def _advance(self, points: int) -> int:
         before = len(self)
@@ -187,7 +208,7 @@ class Experiment(Packing):
         if self._failure is not None:
             raise self._failure
         if outcome == DONE and error.code:
-            warnings.warn(error.text.decode(), GoalWarning, stacklevel=4)
+            warnings.warn(decoded(error.text), GoalWarning, stacklevel=4)
         if outcome in (STOPPED, CANCELLED, FAILED):
             raise self._exception(error)
         return len(self) - before
@@ -214,7 +235,8 @@ class Experiment(Packing):
 
     def close(self) -> None:
         """Writes the last files of a recorded run and unlocks its directory."""
-        lib.gb_simulation_leave(self._handle)
+        with self._alone():
+            lib.gb_simulation_leave(self._handle)
 
     def __enter__(self) -> 'Experiment':
         return self
@@ -244,22 +266,23 @@ class Experiment(Packing):
     @property
     def state(self) -> State:
         """The packing as it is now, as an object that outlives the next advance."""
-        if self._state is None:
-            out = ctypes.c_void_p()
-            call('simulation_state', self._handle, ctypes.byref(out))
-            self._state = State._wrap(Handle('saved_state', out.value))
-        return self._state
+        with self._alone():
+            if self._state is None:
+                out = ctypes.c_void_p()
+                call('simulation_state', self._handle, ctypes.byref(out))
+                self._state = State._wrap(Handle('saved_state', out.value))
+            return self._state
 
     def _view(self, name: str) -> Tuple[np.ndarray, Unit]:
         if name not in ENGINE:
             return self.state._view(name)
-        array, unit = view(self._handle, name)
-        # a change under way replaces the memory of the engine
-        return (array.copy(), unit) if self._changes else (array, unit)
+        with self._alone():
+            return copied(self._handle, name)
 
     def save(self, path: Path) -> None:
         """Writes the state of the last recorded point (HDF5), for `from_state` and `load`."""
-        call('simulation_save', self._handle, path_of(path))
+        with self._alone():
+            call('simulation_save', self._handle, path_of(path))
 
     def __repr__(self) -> str:
         return (f'<Experiment {self.parameters["scene.title"]!r}, {len(self)} points, '
@@ -288,6 +311,53 @@ def run(preset: Preset = None, keys: Keys = None, *, out: Optional[Path] = None,
     """
     return Experiment(preset, keys, out=out, replace=replace, progress=progress,
                       on_event=on_event, **more).run()
+
+
+def press(parameters: Preset, out: Optional[Path] = None) -> Run:
+    """Runs to the end in one thread, for the processes of a pool or a cluster.
+
+    parameters  Parameters, or the name or path of a preset
+    out         directory that records the run; None: not recorded
+
+    Arguments and result can be pickled.  The result has `status` ("done", "stopped"), `reason`
+    (why it was stopped, or the goals that it missed), `parameters` and `curve`.  A run that
+    `out` has already is continued from its last checkpoint, or returned where it is done: the
+    same call may be repeated after its process was killed.
+
+    Wrong parameters, or a directory with a run of others, raise InputError.
+
+    >>> with concurrent.futures.ProcessPoolExecutor() as pool:
+    ...     runs = list(pool.map(greenbody.press, [Parameters('default', seed=k) for k in (1, 2)]))
+    """
+    given = Parameters(parameters)
+    if given['numerics.threads'] == 'auto':
+        given['numerics.threads'] = 1
+    experiment = None
+    if out is not None and os.path.exists(os.path.join(os.fspath(out), 'preset.ini')):
+        recorded = Run(out)
+        if dict(recorded.parameters) != dict(given):
+            raise InputError(f'{os.fspath(out)}: holds a run of other parameters; expected '
+                             'another directory')
+        if recorded.status == 'done':
+            return recorded
+        experiment = Experiment.resume(out)
+    else:
+        experiment = Experiment(given, out=out)
+    status, reason = 'done', ''
+    with warnings.catch_warnings(record=True) as missed:
+        warnings.simplefilter('always')
+        try:
+            experiment.run()
+        except (GuardError, NotConvergedError) as failure:
+            status, reason = 'stopped', str(failure)
+        finally:
+            experiment.close()
+    if out is not None:
+        return Run(out)
+    for warning in missed:
+        if issubclass(warning.category, GoalWarning):
+            reason = str(warning.message)
+    return Run._not_recorded(status, reason, experiment.parameters, experiment.curve)
 
 
 run.__doc__ = (run.__doc__ or '').rstrip(' ') + keys_doc()

@@ -6,7 +6,7 @@ from typing import Any, Dict, Optional
 
 import numpy as np
 
-from ._library import LawRequest, call, lib, strings
+from ._library import LawRequest, call, encoded, lib, strings
 from ._parameters import Keys, Parameters, Preset
 
 #: contact laws with their meaning
@@ -28,11 +28,11 @@ def law(name: str, x: Any = None, preset: Preset = None, keys: Keys = None, *,
     """
     values = np.ascontiguousarray([] if x is None else np.atleast_1d(x), dtype='f8')
     pointer = ctypes.POINTER(ctypes.c_double)
-    request = LawRequest(size=ctypes.sizeof(LawRequest), law=name.encode(),
-                         lattice=lattice.encode() if lattice else None,
+    request = LawRequest(size=ctypes.sizeof(LawRequest), law=encoded(name),
+                         lattice=encoded(lattice) if lattice else None,
                          x=values.ctypes.data_as(pointer), count=len(values),
                          h_min=float('nan') if h_min is None else h_min, history=int(path))
-    header = lib.gb_contact_law_columns(name.encode()) or b'none'
+    header = lib.gb_contact_law_columns(encoded(name)) or b'none'
     columns = header.decode().split(',')
     out = np.empty((lib.gb_contact_law_rows(ctypes.byref(request)), len(columns)))
     parameters = Parameters(preset, keys, **more)

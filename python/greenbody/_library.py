@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
+import threading
 from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int, c_int64,
                     c_size_t, c_uint64, c_void_p)
 from typing import Any, Iterator, Optional
@@ -18,6 +19,10 @@ class GreenbodyError(Exception):
     status = 0
     #: the Experiment of a run that was stopped or cancelled, with the results so far
     experiment: Any = None
+
+    def __reduce__(self) -> Any:
+        """To another process without the experiment, which stays in its own."""
+        return type(self), self.args
 
 
 class InputError(GreenbodyError, ValueError):
@@ -71,7 +76,7 @@ class Error(Structure):
     _fields_ = [('code', c_int), ('text', c_char * 480)]
 
     def exception(self) -> GreenbodyError:
-        return ERRORS.get(self.code, GreenbodyError)(self.text.decode())
+        return ERRORS.get(self.code, GreenbodyError)(decoded(self.text))
 
 
 class Array(Structure):
@@ -108,6 +113,7 @@ FUNCTIONS = [
     ('parameters_destroy', None, [c_void_p]),
     ('parameters_set', c_bool, [c_void_p, c_char_p, ERR]),
     ('parameters_get', c_bool, [c_void_p, c_char_p, c_char_p, c_size_t, ERR]),
+    ('parameters_label', c_bool, [c_void_p, c_char_p, c_char_p, c_size_t, ERR]),
     ('parameters_check', c_bool, [c_void_p, ERR]),
     ('parameters_check_cells', c_bool, [c_void_p, c_size_t, ERR]),
     ('parameters_save', c_bool, [c_void_p, c_char_p, ERR]),
@@ -195,11 +201,20 @@ def call(name: str, *arguments: Any) -> None:
 
 
 class Handle:
-    """An object of the library, destroyed with the last of its users."""
+    """An object of the library, destroyed with the last of its users.
+
+    `lock` is for calls that change the object: ctypes lets other threads run during a call.
+    """
 
     def __init__(self, kind: str, pointer: Optional[int]) -> None:
         self.kind = kind
         self.pointer = pointer
+        self.lock = threading.RLock()
+
+    def __reduce__(self) -> Any:
+        """Its memory belongs to one object of one process."""
+        raise TypeError(f'a {self.kind} of the library cannot be copied or pickled; its '
+                        'parameters and its curve can')
 
     @property
     def _as_parameter_(self) -> c_void_p:
@@ -221,8 +236,24 @@ def create(kind: str, function: str, *arguments: Any) -> Handle:
     return Handle(kind, out.value)
 
 
+def encoded(text: str) -> bytes:
+    """A text for the library, where a NUL would end it."""
+    return _whole(text.encode('utf-8', 'surrogateescape'))
+
+
+def decoded(text: Optional[bytes]) -> str:
+    """A text of the library; bytes that are no UTF-8 as in paths."""
+    return (text or b'').decode('utf-8', 'surrogateescape')
+
+
+def _whole(text: bytes) -> bytes:
+    if b'\0' in text:
+        raise InputError(f'{text!r}: expected a text without NUL')
+    return text
+
+
 def path_of(path: 'os.PathLike[str] | str') -> bytes:
-    return os.fsencode(os.fspath(path))
+    return _whole(os.fsencode(path))
 
 
 def strings(name: str) -> Iterator[str]:
@@ -232,5 +263,5 @@ def strings(name: str) -> Iterator[str]:
         text = getattr(lib, 'gb_' + name)(index)
         if text is None:
             return
-        yield text.decode()
+        yield decoded(text)
         index += 1

@@ -5,7 +5,8 @@ import ctypes
 import os
 from typing import Any, Dict, Iterator, List, Mapping, MutableMapping, NamedTuple, Optional, Union
 
-from ._library import VALUE_SIZE, Handle, call, create, lib, path_of
+from ._library import (VALUE_SIZE, Handle, call, create, decoded, encoded, lib,
+                       path_of)
 
 Preset = Union[str, 'os.PathLike[str]', 'Parameters', None]
 Keys = Optional[Mapping[str, Any]]
@@ -31,7 +32,7 @@ def _table() -> Dict[str, Parameter]:
         texts: List[str] = []
         for what in range(len(Parameter._fields)):
             lib.gb_parameters_text(len(rows), what, buffer, VALUE_SIZE)
-            texts.append(buffer.value.decode())
+            texts.append(decoded(buffer.value))
         rows[texts[0]] = Parameter(*texts)
     return rows
 
@@ -45,7 +46,7 @@ def presets() -> List[str]:
     size = lib.gb_parameters_presets(None, 0)
     buffer = ctypes.create_string_buffer(size)
     lib.gb_parameters_presets(buffer, size)
-    return buffer.value.decode().split('\n') if buffer.value else []
+    return decoded(buffer.value).split('\n') if buffer.value else []
 
 
 def text_of(value: Any) -> str:
@@ -93,12 +94,39 @@ class Parameters(MutableMapping[str, str]):
             self[key.replace('__', '.')] = value
 
     def __setitem__(self, key: str, value: Any) -> None:
-        call('parameters_set', self._handle, f'{key}={text_of(value)}'.encode())
+        with self._handle.lock:
+            call('parameters_set', self._handle, encoded(f'{key}={text_of(value)}'))
 
     def __getitem__(self, key: str) -> str:
+        return self._text('get', key)
+
+    def _text(self, function: str, key: str) -> str:
         buffer = ctypes.create_string_buffer(VALUE_SIZE)
-        call('parameters_get', self._handle, key.encode(), buffer, VALUE_SIZE)
-        return buffer.value.decode()
+        with self._handle.lock:
+            call(f'parameters_{function}', self._handle, encoded(key), buffer, VALUE_SIZE)
+        return decoded(buffer.value)
+
+    def label(self, key: str) -> str:
+        """The value of a key as the names of a sweep's directories have it: "9.7nm"."""
+        return self._text('label', key)
+
+    @classmethod
+    def _of_texts(cls, changed: Dict[str, str]) -> 'Parameters':
+        return cls(None, changed)
+
+    def __reduce__(self) -> Any:
+        """Pickled as the texts that differ from the defaults."""
+        return self._of_texts, (self._changed(),)
+
+    def __copy__(self) -> 'Parameters':
+        return Parameters(self)
+
+    def __deepcopy__(self, _memo: Any) -> 'Parameters':
+        return Parameters(self)
+
+    def _changed(self) -> Dict[str, str]:
+        return {key: value for key, value in self.items()
+                if value != parameters[key].default}
 
     def __delitem__(self, key: str) -> None:
         """Back to the default."""
@@ -114,9 +142,7 @@ class Parameters(MutableMapping[str, str]):
         return len(parameters)
 
     def __repr__(self) -> str:
-        changed = {key: value for key, value in self.items()
-                   if value != parameters[key].default}
-        return f'Parameters({changed!r})'
+        return f'Parameters({self._changed()!r})'
 
     def check(self) -> None:
         """Checks each value and their relations: InputError."""

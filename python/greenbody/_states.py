@@ -4,12 +4,12 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
-from typing import Iterator, List, Sequence, Tuple, Union
+from typing import Any, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from ._data import Curve, Packing, Unit, read_points, view
-from ._library import Handle, call, create, lib, path_of
+from ._library import Handle, call, create, decoded, lib, path_of
 from ._parameters import Parameters
 
 Path = Union[str, 'os.PathLike[str]']
@@ -29,6 +29,10 @@ class State(Packing):
         self.path = None
         return self
 
+    def __reduce__(self) -> Any:
+        """A packing belongs to its process; its file does not."""
+        return self._handle.__reduce__()
+
     def _view(self, name: str) -> Tuple[np.ndarray, Unit]:
         return view(self._handle, name)
 
@@ -40,7 +44,7 @@ class State(Packing):
     @property
     def title(self) -> str:
         """Title of the preset."""
-        return lib.gb_saved_state_title(self._handle).decode()
+        return decoded(lib.gb_saved_state_title(self._handle))
 
     @property
     def seed(self) -> int:
@@ -76,15 +80,19 @@ def parameters_of(handle: Handle) -> Parameters:
 
 
 class Run:
-    """A run directory: of a finished run, or of one under way as far as it is written."""
+    """A run as plain data, which can be pickled: of a directory, as far as it is written, or
+    the result of `press`."""
+
+    #: its directory; None of a run that was not recorded
+    directory: Optional[pathlib.Path]
 
     def __init__(self, directory: Path) -> None:
         handle = create('recorded_run', 'open', path_of(directory))
         self.directory = pathlib.Path(directory)
         #: "running", "done", "stopped", "failed"
-        self.status: str = lib.gb_recorded_run_state(handle).decode()
+        self.status: str = decoded(lib.gb_recorded_run_state(handle))
         #: why it was stopped or failed; "" otherwise
-        self.reason: str = lib.gb_recorded_run_reason(handle).decode()
+        self.reason: str = decoded(lib.gb_recorded_run_reason(handle))
         self.parameters = parameters_of(handle)
         #: rows of curve.csv with its digits
         self.curve: Curve = read_points(lib.gb_recorded_run_point(handle, k)
@@ -97,6 +105,18 @@ class Run:
             paths.append(pathlib.Path(os.fsdecode(path)))
         #: kept states, the last one state.h5
         self.states = States(paths)
+
+    @classmethod
+    def _not_recorded(cls, status: str, reason: str, parameters: Parameters,
+                      curve: Curve) -> 'Run':
+        self = cls.__new__(cls)
+        self.directory = None
+        self.status = status
+        self.reason = reason
+        self.parameters = parameters
+        self.curve = curve
+        self.states = States([])
+        return self
 
     def __repr__(self) -> str:
         return f'<Run {str(self.directory)!r} {self.status}, {len(self.curve)} points>'

@@ -4,7 +4,6 @@ from __future__ import annotations
 import itertools
 import os
 import pathlib
-import re
 import threading
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
@@ -30,17 +29,7 @@ class SweepRun:
 
     def at_pressure(self, p_pa: float, member: str = 'density') -> float:
         """A member of the points on loading where the pressure first reaches p_pa; NaN: never."""
-        if self.curve is None:
-            return float('nan')
-        loading = self.curve.loading
-        above = np.flatnonzero(loading['p_pa'] >= p_pa)
-        if len(above) == 0:
-            return float('nan')
-        k = int(above[0])
-        if k == 0:
-            return float(loading[member][0])
-        p, y = loading['p_pa'][k - 1:k + 1], loading[member][k - 1:k + 1]
-        return float(y[0] + (y[1] - y[0]) * (p_pa - p[0]) / (p[1] - p[0]))
+        return float('nan') if self.curve is None else self.curve.at_pressure(p_pa, member)
 
     def __repr__(self) -> str:
         how = 'not run' if self.curve is None else f'{len(self.curve)} points'
@@ -104,12 +93,25 @@ def _plan(preset: Preset, values: Mapping[str, Iterable[Any]], seeds: List[int],
     return runs
 
 
-def _directory(out: Optional[Path], run: SweepRun) -> Optional[pathlib.Path]:
-    if out is None:
-        return None
-    name = '_'.join([f'{key.split(".")[-1]}-{text_of(value)}'
-                     for key, value in run.values.items()] + [f'seed-{run.seed}'])
-    return pathlib.Path(out) / re.sub(r'[^\w.+-]', '', name)
+def _name(run: SweepRun) -> str:
+    """The name of its directory, as `greenbody sweep` names them, and the seed."""
+    short = [key.split('.')[-1] for key in run.values]
+    parts = []
+    for key, last in zip(run.values, short):
+        text = run.parameters.label('material.name' if key == 'material' else key)
+        parts.append(f'{last if short.count(last) == 1 else key}-{text}')
+    return '_'.join(parts + [f'seed-{run.seed}'])
+
+
+def _directories(out: Path, runs: List[SweepRun]) -> Dict[SweepRun, pathlib.Path]:
+    """A directory of its own for each run."""
+    names: Dict[str, SweepRun] = {}
+    for run in runs:
+        other = names.setdefault(_name(run), run)
+        if other is not run:
+            raise InputError(f'{run.values} seed {run.seed}: given twice; expected each value '
+                             'and seed once where runs have directories')
+    return {run: pathlib.Path(out) / name for name, run in names.items()}
 
 
 class _Work:
@@ -168,10 +170,11 @@ def sweep(preset: Preset = None, values: Optional[Mapping[str, Iterable[Any]]] =
     if len(set(chosen)) < len(chosen):
         raise InputError(f'seeds = {chosen}: expected each seed once')
     runs = _plan(preset, values or {}, chosen, keys, more)
+    directories = {} if out is None else _directories(out, runs)
     work = _Work()
     count = workers or len(os.sched_getaffinity(0))
     with ThreadPoolExecutor(max_workers=max(1, count)) as pool:
-        left = {pool.submit(work.do, run, _directory(out, run), replace) for run in runs}
+        left = {pool.submit(work.do, run, directories.get(run), replace) for run in runs}
         try:
             _wait(left, len(runs), progress)
         except BaseException:

@@ -1,6 +1,11 @@
-"""The Python module against the program: same bits, arrays without copies, errors."""
+"""The Python module against the program: same bits, arrays, errors, processes."""
+import concurrent.futures
+import copy
 import csv
+import multiprocessing
 import os
+import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -20,6 +25,12 @@ except ImportError:
 import greenbody  # noqa: E402  # pylint: disable=wrong-import-position
 
 SMALL = {'particles.count': 150, 'loading.until': '5 MPa', 'loading.unload_from': ''}
+
+
+#: one kind of scene each: one size, many sizes with time, a die
+SCENES = [('default', SMALL),
+          ('p2-3d-v1', {'particles.count': 500, 'particles.distribution': 'lognormal'}),
+          ('p3-hertz-mu0', {'particles.count': 60, 'die.diameter': '60 um'})]
 
 
 def small(**more):
@@ -92,15 +103,60 @@ class SameBits(Folder):
 class Arrays(Folder):
     """Memory of the engine, and copies that outlive it."""
 
-    def test_no_copy(self):
-        run = greenbody.Experiment('default', SMALL)
-        run.advance(1)
-        position = run.position
-        self.assertTrue(np.shares_memory(position, run.position))
-        self.assertFalse(position.flags.writeable)
-        before = position.copy()
-        run.advance(5)
-        self.assertFalse(np.array_equal(position, before))
+    def test_kept(self):
+        """Every array of every kind of scene keeps its values over advances and the end."""
+        for preset, keys in SCENES:
+            run = greenbody.Experiment(preset, keys)
+            run.advance(2)
+            arrays = {}
+            for name in greenbody.arrays:
+                try:
+                    arrays[name] = run.array(name)
+                except greenbody.InputError:
+                    continue  # of other scenes
+            self.assertIn('torque', arrays)
+            self.assertIn('diameter', arrays)
+            before = {name: array.copy() for name, array in arrays.items()}
+            run.advance(3)
+            moved = not np.array_equal(run.position, arrays['position'])
+            run.close()
+            del run
+            litter = [bytearray(array.nbytes) for array in arrays.values() for _ in range(3)]
+            for name, array in arrays.items():
+                self.assertFalse(array.flags.writeable, name)
+                np.testing.assert_array_equal(array, before[name], f'{preset} {name}')
+            self.assertTrue(moved)
+            del litter
+
+    def test_other_thread(self):
+        """While a thread advances, another is refused; afterwards it may read."""
+        seen = []
+
+        def look(_share, experiment):
+            if seen or len(experiment) == 0:
+                return
+            experiment.position  # the thread that advances may  # pylint: disable=W0104
+
+            def other():
+                for use in (lambda: experiment.position, lambda: experiment.contact,
+                            experiment.advance, experiment.close,
+                            lambda: experiment.save(self.at('x.h5'))):
+                    try:
+                        use()
+                        seen.append('nothing')
+                    except RuntimeError as error:
+                        seen.append(str(error))
+
+            thread = threading.Thread(target=other)
+            thread.start()
+            thread.join()
+
+        run = greenbody.Experiment('default', SMALL, count=2000, progress=look)
+        run.run()
+        self.assertEqual(set(seen), {'the experiment is advanced by another thread'})
+        self.assertEqual(run.position.shape, (2000, 3))
+        with self.assertRaises(greenbody.InputError):
+            run.advance(-1)
 
     def test_contacts(self):
         run = small()
@@ -306,6 +362,286 @@ class Sweeps(Folder):
         self.assertEqual(set(frame['branch_name']) - {'relax', 'load'}, set())
 
 
+    def names(self, values, seeds=1, **keys):
+        """The directories of a sweep, each with a run of its own values."""
+        runs = greenbody.sweep('default', values, seeds, SMALL, out=self.at('out'),
+                               replace=True, **keys)
+        found = {}
+        for name in os.listdir(self.at('out')):
+            found[name] = greenbody.load(os.path.join(self.at('out'), name))
+        self.assertEqual(len(found), len(runs))
+        for run in runs:
+            same = [loaded for loaded in found.values()
+                    if all(loaded.parameters[key] == run.parameters[key]
+                           for key in run.values)
+                    and loaded.parameters['structure.seed'] == str(run.seed)]
+            self.assertEqual(len(same), 1, run)
+            self.assertEqual(same[0].status, 'done')
+        return sorted(found)
+
+    def test_names(self):
+        """Values that differ in any character have directories of their own."""
+        titles = [f'a{chr(c)}b' for c in range(32, 127)] + ['ab', 'a/../b', 'ä', 'x' * 90,
+                                                            'x' * 91]
+        names = self.names({'scene.title': titles}, count=60, until='1 MPa')
+        self.assertIn('title-ab_seed-1', names)
+        self.assertIn('title-a~26b_seed-1', names)
+
+    def test_names_of_numbers(self):
+        """As before, and as `greenbody sweep` names them."""
+        self.assertEqual(self.names({'contact.mu': [0.1, 0.3], 'particles.diameter': ['9.7 nm']}),
+                         ['mu-0.1_diameter-9.7nm_seed-1', 'mu-0.3_diameter-9.7nm_seed-1'])
+
+    def test_given_twice(self):
+        with self.assertRaises(greenbody.InputError) as caught:
+            greenbody.sweep('default', {'contact.mu': ['0.1', '0.10']}, 1, SMALL,
+                            out=self.at('out'))
+        self.assertIn('given twice', str(caught.exception))
+        self.assertFalse(os.path.exists(self.at('out')))
+
+    def test_pickled(self):
+        """A sweep and its errors are plain data."""
+        runs = greenbody.sweep('default', {'contact.mu': [0.1]}, 1, SMALL, workers=1)
+        again = pickle.loads(pickle.dumps(runs))
+        np.testing.assert_array_equal(again[0].curve['p_pa'], runs[0].curve['p_pa'])
+        self.assertEqual(dict(again[0].parameters), dict(runs[0].parameters))
+
+
+class Texts(Folder):
+    """What a NUL would cut is refused, wherever a text goes to the library."""
+
+    def test_nul(self):
+        parameters = greenbody.Parameters('default', SMALL)
+        run = greenbody.Experiment(parameters)
+        run.advance(1)
+        path = self.at('cut') + '\0.h5'
+        for use in (lambda: greenbody.Parameters('default\0x'),
+                    lambda: greenbody.Parameters('default', {'contact.mu\0x': 1}),
+                    lambda: greenbody.Parameters('default', {'scene.title': 'a\0b'}),
+                    lambda: parameters['contact.mu\0x'],
+                    lambda: parameters.save(path), lambda: run.save(path),
+                    lambda: greenbody.State(path), lambda: greenbody.Run(path),
+                    lambda: greenbody.Experiment(parameters, out=path),
+                    lambda: greenbody.Experiment.resume(path),
+                    lambda: greenbody.Experiment.from_state(path, parameters),
+                    lambda: run.array('position\0x'),
+                    lambda: run.state.array('position\0x'),
+                    lambda: greenbody.law('rod\0x', [0.0]),
+                    lambda: greenbody.law('lattice', [0.0], lattice='sc\0x')):
+            with self.assertRaises(ValueError):
+                use()
+        self.assertEqual(os.listdir(self._folder.name), [])
+
+    def test_any_bytes(self):
+        """A title and a path of other bytes come back as they are."""
+        title = b'\xe4'.decode('utf-8', 'surrogateescape')
+        parameters = greenbody.Parameters('default', SMALL)
+        out = self.at(title)
+        greenbody.run(parameters, out=out)
+        self.assertEqual(greenbody.load(out).status, 'done')
+        try:
+            parameters['scene.title'] = title
+        except greenbody.InputError:
+            return  # refused as a whole
+        self.assertEqual(parameters['scene.title'], title)
+
+
+def press_in_pool(pool, **keys):
+    """Four seeds by the map of a pool."""
+    return list(pool.map(greenbody.press, seeds(**keys), timeout=240))
+
+
+def seeds(**keys):
+    return [greenbody.Parameters('default', SMALL, seed=k, **keys) for k in range(1, 5)]
+
+
+def module(name):
+    """Is it installed for this Python?"""
+    done = subprocess.run([sys.executable, '-c', f'import {name}'], check=False,
+                          capture_output=True)
+    return done.returncode == 0
+
+
+class Processes(Folder):
+    """Objects at the border of a process."""
+
+    def test_parameters(self):
+        """Of every preset, by pickle and copies, with every key."""
+        for preset in greenbody.presets():
+            parameters = greenbody.Parameters(preset)
+            for again in (pickle.loads(pickle.dumps(parameters)), copy.copy(parameters),
+                          copy.deepcopy(parameters)):
+                self.assertEqual(dict(again), dict(parameters), preset)
+        again['contact.mu'] = 0.77
+        self.assertNotEqual(parameters['contact.mu'], '0.77')
+
+    def test_refused(self):
+        """What has memory of the library is neither pickled nor copied."""
+        run = greenbody.Experiment('default', SMALL)
+        run.advance(1)
+        run.save(self.at('state.h5'))
+        for thing in (run, run.state, greenbody.load(self.at('state.h5')), [run]):
+            for use in (pickle.dumps, copy.deepcopy):
+                with self.assertRaises(TypeError):
+                    use(thing)
+        for thing in (run, run.state):
+            with self.assertRaises(TypeError):
+                copy.copy(thing)
+        self.assertTrue(pickle.dumps(run.position))
+
+    def test_press(self):
+        """The points of `run`; recorded, continued and returned."""
+        parameters = greenbody.Parameters('default', SMALL)
+        plain = small()
+        done = greenbody.press(parameters)
+        self.assertEqual((done.status, done.reason, done.directory), ('done', '', None))
+        np.testing.assert_array_equal(done.curve['p_pa'], plain.curve['p_pa'])
+        half = greenbody.Experiment(parameters, threads=1, out=self.at('run'))
+        half.advance(5)
+        half.close()
+        for _ in range(2):
+            done = greenbody.press(parameters, self.at('run'))
+            self.assertEqual(done.status, 'done')
+            np.testing.assert_array_equal(done.curve['p_pa'], plain.curve['p_pa'])
+        again = pickle.loads(pickle.dumps(done))
+        np.testing.assert_array_equal(again.curve['p_pa'], plain.curve['p_pa'])
+        self.assertEqual(len(again.states), 1)
+        parameters['contact.mu'] = 0.77
+        with self.assertRaises(greenbody.InputError):
+            greenbody.press(parameters, self.at('run'))
+
+    def test_missed(self):
+        """A goal that was missed is a reason, and an error reaches the parent."""
+        parameters = greenbody.Parameters(
+            'default', SMALL, unload_from='3 MPa', until='density = 0.2405')
+        self.assertIn('loading.unload_from = 3 MPa', greenbody.press(parameters).reason)
+        parameters['contact.mu'] = 0.1
+        parameters['particles.count'] = 100
+        wrong = greenbody.Parameters(parameters, {'loading.unload_from': '3 MPa',
+                                                  'loading.until': '1 MPa'})
+        with concurrent.futures.ProcessPoolExecutor(1) as pool:
+            here = there = None
+            try:
+                greenbody.press(wrong)
+            except greenbody.GreenbodyError as error:
+                here = error
+            try:
+                pool.submit(greenbody.press, wrong).result(120)
+            except greenbody.GreenbodyError as error:
+                there = error
+            self.assertIsNotNone(here)
+            self.assertEqual((type(here), str(here)), (type(there), str(there)))
+
+    def check(self, runs):
+        for run, parameters in zip(runs, seeds()):
+            np.testing.assert_array_equal(run.curve['p_pa'],
+                                          greenbody.press(parameters).curve['p_pa'])
+        self.assertEqual(len(runs), 4)
+
+    def test_pools(self):
+        """concurrent.futures and multiprocessing, forked with a run under way, and spawned."""
+        with greenbody.Experiment('default', SMALL, count=1000, threads=2) as parent:
+            parent.advance(2)
+            for method in ('fork', 'spawn'):
+                context = multiprocessing.get_context(method)
+                with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+                    self.check(press_in_pool(pool))
+                with context.Pool(2) as pool:
+                    self.check(pool.map_async(greenbody.press, seeds()).get(240))
+                    with self.assertRaises(TypeError):
+                        pool.map_async(type, [parent]).get(240)
+
+    def test_fork(self):
+        """A child that inherits a recorded run ends, and leaves its directory alone."""
+        run = greenbody.Experiment('default', SMALL, count=1000, threads=2, out=self.at('run'))
+        run.advance(3)
+        with open(self.at('run/events.log'), encoding='utf-8') as file:
+            events = file.read()
+        for use in ('del run', 'run.close()', 'run.position', 'run.advance(1)'):
+            pid = os.fork()
+            if pid == 0:
+                signal.alarm(120)
+                code = 0
+                try:
+                    if use == 'del run':
+                        del run
+                    elif use == 'run.close()':
+                        run.close()
+                    else:
+                        code = 1
+                        eval(use)  # pylint: disable=eval-used
+                except greenbody.InputError:
+                    code = 0
+                finally:
+                    os._exit(code)  # pylint: disable=protected-access
+            self.assertEqual(os.waitpid(pid, 0)[1], 0, use)
+        with open(self.at('run/events.log'), encoding='utf-8') as file:
+            self.assertEqual(file.read(), events)
+        run.run()
+        self.assertTrue(run.done)
+
+    def test_fork_to_the_end(self):
+        """The same for a child that ends as a script does."""
+        script = ('import os, sys, greenbody\n'
+                  'run = greenbody.Experiment("default", {"particles.count": 300,'
+                  ' "loading.until": "5 MPa", "loading.unload_from": ""}, threads=2,'
+                  ' out=sys.argv[1])\n'
+                  'run.advance(3)\n'
+                  'pid = os.fork()\n'
+                  'if pid:\n'
+                  '    assert os.waitpid(pid, 0)[1] == 0\n'
+                  '    run.run()\n')
+        done = subprocess.run([sys.executable, '-c', script, self.at('run')], check=False,
+                              capture_output=True, text=True, timeout=240)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        with open(self.at('run/events.log'), encoding='utf-8') as file:
+            self.assertNotIn('left before its end', file.read())
+        self.assertEqual(greenbody.load(self.at('run')).status, 'done')
+
+    def recipe(self, word):
+        """The block of the page that has this word, as a script; the page is its source."""
+        page = os.path.join(os.path.dirname(__file__), '..', '..', 'docs', 'many-runs.md')
+        with open(page, encoding='utf-8') as file:
+            blocks = file.read().split('```python\n')[1:]
+        found = [block.split('```')[0] for block in blocks if word in block]
+        self.assertEqual(len(found), 1, word)
+        with open(self.at('recipe.py'), 'w', encoding='utf-8') as file:
+            file.write(found[0])
+        return self.at('recipe.py')
+
+    def run_recipe(self, *command):
+        """Its runs are those of `press` alone, and a second time they are only read."""
+        for _ in range(2):
+            done = subprocess.run(command, cwd=self._folder.name, check=False,
+                                  capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(len(done.stdout.split()), 8, done.stdout)
+        for k in range(1, 9):
+            run = greenbody.load(self.at(f'runs/seed-{k}'))
+            self.assertEqual(run.status, 'done')
+        alone = greenbody.press(run.parameters)
+        np.testing.assert_array_equal(run.curve['density'], alone.curve['density'])
+        self.assertAlmostEqual(float(done.stdout.split()[7]), run.curve['density'][-1])
+
+    def test_recipe_of_futures(self):
+        self.run_recipe(sys.executable, self.recipe('ProcessPoolExecutor'))
+
+    def test_recipe_of_mpi(self):
+        if not module('mpi4py') or not shutil.which('mpiexec'):
+            self.skipTest('mpi4py or mpiexec is not installed (python3-mpi4py)')
+        root = ['--allow-run-as-root'] if os.geteuid() == 0 else []
+        help_text = subprocess.run(['mpiexec', '--version'], check=False, capture_output=True,
+                                   text=True).stdout
+        options = root + ['--oversubscribe'] if 'Open' in help_text else []
+        self.run_recipe('mpiexec', *options, '-n', '3', sys.executable, '-m', 'mpi4py.futures',
+                        self.recipe('MPIPoolExecutor'))
+
+    def test_recipe_of_dask(self):
+        if not module('distributed'):
+            self.skipTest('dask.distributed is not installed (python3-distributed)')
+        self.run_recipe(sys.executable, self.recipe('dask.distributed'))
+
+
 class Laws(unittest.TestCase):
     """Contact laws by name."""
 
@@ -327,4 +663,4 @@ class Laws(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main()
+    unittest.main(verbosity=2)  # with the reasons of what is skipped
