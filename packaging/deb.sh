@@ -13,6 +13,13 @@ root=$scratch/root
 architecture=$(dpkg --print-architecture)
 package=$output/greenbody_${version}_$architecture.deb
 
+prefix=$(meson introspect --buildoptions "$build" 2>/dev/null | tr '{' '\n' |
+    sed -n 's/.*"name": "prefix", "value": "\([^"]*\)".*/\1/p')
+if [ "$prefix" != /usr ]; then
+    echo "deb.sh: prefix = ${prefix:-unknown} of $build: expected /usr" \
+        "(meson configure $build --prefix /usr)" >&2
+    exit 2
+fi
 DESTDIR=$root meson install -C "$build" --no-rebuild --quiet >"$scratch/log" 2>&1 || {
     cat "$scratch/log" >&2
     exit 3

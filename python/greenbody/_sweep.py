@@ -13,7 +13,7 @@ import numpy as np
 from ._data import Curve
 from ._experiment import Experiment
 from ._library import GreenbodyError, InputError
-from ._parameters import Keys, Parameters, Preset, text_of
+from ._parameters import Keys, Parameters, Preset
 from ._states import Path
 
 

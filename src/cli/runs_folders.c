@@ -1,6 +1,7 @@
 #include "cli/runs_folders.h"
 
 #include <stdbool.h>
+#include <stdlib.h>
 
 #include "io/runs/run_list.h"
 #include "tui/session/run_lifecycle.h"
@@ -24,6 +25,7 @@ static void add(GPtrArray *list, const char *folder, enum names names)
 GPtrArray *gb_runs_folders_list(char **folders)
 {
     GPtrArray *list = gb_run_list_new();
+    GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     const bool one = folders != NULL && folders[0] != NULL && folders[1] == NULL;
     for (int i = 0; folders != NULL && folders[i] != NULL; i++) {
         add(list, folders[i], one ? NAMES_BELOW : NAMES_WHOLE);
@@ -34,6 +36,17 @@ GPtrArray *gb_runs_folders_list(char **folders)
         add(list, working, NAMES_WHOLE);
         g_free(folder);
     }
+    for (guint i = 0; i < list->len;) {
+        const struct gb_run_list_item *item = g_ptr_array_index(list, i);
+        char *real = realpath(item->directory, NULL);
+        if (g_hash_table_add(seen, g_strdup(real ? real : item->directory))) {
+            i++;
+        } else { /* below two of the folders */
+            g_ptr_array_remove_index(list, i);
+        }
+        free(real);
+    }
+    g_hash_table_destroy(seen);
     gb_run_list_sort(list);
     return list;
 }

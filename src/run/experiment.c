@@ -13,6 +13,7 @@
 #include "run/packing_state.h"
 #include "run/point_measure.h"
 #include "scene/field/changes.h"
+#include "scene/imported/imported.h"
 
 bool gb_experiment_event(struct gb_experiment *experiment, int64_t *step, char *text,
                          size_t size)
@@ -50,11 +51,16 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
     if (!experiment) {
         return false;
     }
-    if (!gb_change_check_all(&experiment->params, experiment->model, err) ||
+    struct gb_error why = {0};
+    if (!gb_change_check_all(&experiment->params, experiment->model, &why) ||
         !gb_loading_create(&experiment->loading, &experiment->params, experiment->model,
-                           cancelled, data, err)) {
+                           cancelled, data, &why)) {
         gb_experiment_destroy(experiment);
-        return false;
+        if (why.code == GB_ERR_GUARD && gb_imported_given(params)) {
+            /* no run has made this packing: the file is what is wrong */
+            return gb_error_set(err, GB_ERR_INPUT, "structure.from: %s", why.text);
+        }
+        return gb_error_set(err, why.code, "%s", why.text);
     }
     if (gb_loading_kind_of(params)->columns == GB_COLUMNS_ENERGY) {
         experiment->elastic_start = gb_observe_elastic(experiment->loading->world);

@@ -50,5 +50,30 @@ is 'without a package that it needs it ends' [ $? -eq 3 ]
 is 'and names that one' grep -q 'as root: apt-get install libgsl-dev' stderr
 is 'nothing is built' [ "$(grep -c ninja called)" -eq 0 ]
 
+# As root: the lines of apt and dpkg go to a log, and to the screen only if it fails.
+rm -rf tree/build
+tool id 'echo 0'
+# shellcheck disable=SC2016
+tool apt-get 'echo "apt-get $*" >>../called
+for k in 0 1 2 3; do for j in 0 1 2 3 4 5 6 7 8 9; do echo "Unpacking $k$j" >&2; done; done
+case " $* " in *" install "*) : >../missing; exit "$(cat ../apt_status)" ;; esac'
+tool apt-cache 'exit 0'
+ln -s "$(command -v tail)" tools/tail
+echo libgsl-dev >missing
+echo 0 >apt_status
+bootstraps
+is 'as root it installs' [ $? -eq 0 ]
+is 'what is missing' grep -q 'apt-get .*install.* libgsl-dev' called
+is 'in a few lines' [ "$(wc -l <stderr)" -le 5 ]
+is 'none of them of dpkg' [ "$(grep -c Unpacking stderr)" -eq 0 ]
+is 'which are in a log' [ "$(grep -c Unpacking tree/build-packages.log)" -eq 80 ]
+rm -rf tree/build
+echo libgsl-dev >missing
+echo 100 >apt_status
+bootstraps
+is 'a package that cannot be installed ends it' [ $? -eq 3 ]
+is 'with the last lines of dpkg' [ "$(grep -c Unpacking stderr)" -eq 20 ]
+is 'and the name of the log' grep -q 'build-packages.log' stderr
+
 echo "1..$tests"
 exit $bad

@@ -1,3 +1,4 @@
+#include <limits.h>
 #include <stdio.h>
 
 #include <glib.h>
@@ -13,6 +14,9 @@
 
 enum { COUNT_MIN = 50, COUNT_MAX = 1000000, CELLS_MAX = 1000 };
 
+/* Of an option that is not given. */
+enum { DEFAULT = INT_MIN };
+
 /* The options of the command line. */
 struct request {
     char *out, *only;
@@ -27,12 +31,18 @@ struct command {
     struct gb_batch_progress batch;
 };
 
+/* As the plan takes it: 0 without the option. */
+static int given(int value)
+{
+    return value != DEFAULT ? value : 0;
+}
+
 static bool check_range(const char *option, int value, int least, int most,
                         struct gb_error *err)
 {
-    return value == 0 || (value >= least && value <= most) ||
-           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option,
-                        value, least, most);
+    return value == DEFAULT || (value >= least && value <= most) ||
+           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option, value,
+                        least, most);
 }
 
 static bool check_request(const struct request *request, char **words,
@@ -59,8 +69,8 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
     const struct gb_papers_options options = {.size = request->fast ? GB_PAPERS_FAST
                                                                     : GB_PAPERS_FULL,
                                               .only = only,
-                                              .count = request->count,
-                                              .cells = request->cells};
+                                              .count = given(request->count),
+                                              .cells = given(request->cells)};
     const bool good = check_request(request, words, err) &&
                       gb_papers_printed_read(&command->numbers, NULL, err) &&
                       gb_papers_plan_init(&command->plan, &options, request->out, err) &&
@@ -176,7 +186,7 @@ static char *describe_experiments(void)
 
 int gb_cmd_papers(int argc, char **argv)
 {
-    struct request request = {0};
+    struct request request = {.count = DEFAULT, .cells = DEFAULT};
     struct command command = {.request = &request};
     struct gb_error err = {0};
     char **words = NULL;

@@ -3,9 +3,41 @@
 #include <math.h>
 #include <string.h>
 
+#include <glib.h>
+
+#include "base/units.h"
+
+static bool is_number(const char *word)
+{
+    const char *end = word;
+    double value = 0.0;
+    return gb_units_number(word, &end, &value) && end != word && *end == '\0';
+}
+
+/* A unit of any dimension, or one that looks like a pressure. */
+static bool is_unit(const char *word)
+{
+    char *one = g_strdup_printf("1 %s", word);
+    double value = 0.0;
+    bool found = g_ascii_isalpha(word[0]) && g_str_has_suffix(word, "Pa");
+    for (int k = GB_DIM_FRACTION; !found && word[0] != '\0' && k <= GB_DIM_COMPLIANCE; k++) {
+        found = gb_units_parse(one, (enum gb_dimension)k, &value, NULL);
+    }
+    g_free(one);
+    return found;
+}
+
 bool gb_path_reading_expected(struct gb_path_reading *in, const char *what)
 {
     const char *word = gb_path_words_peek(&in->words);
+    if (in->words.next > 0 && is_number(in->words.word[in->words.next - 1]) &&
+        is_unit(word)) {
+        return gb_error_set(in->err, GB_ERR_INPUT,
+                            "'%.24s %.24s': must have a unit that fits here: %s for a "
+                            "pressure, %% for a strain, none for a density or a ratio",
+                            in->words.word[in->words.next - 1], word,
+                            gb_units_accepted(GB_DIM_PRESSURE));
+    }
     return word[0] != '\0'
                ? gb_error_set(in->err, GB_ERR_INPUT, "'%.24s': must be %s", word, what)
                : gb_error_set(in->err, GB_ERR_INPUT,
