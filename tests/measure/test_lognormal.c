@@ -128,7 +128,7 @@ static void test_true_law(void)
     gsl_rng_free(rng);
 }
 
-/* Two powders mixed, sizes of one class with a stray, a flat histogram: no law. */
+/* Two powders mixed, nearly all sizes in one class, a flat histogram: no law. */
 static void test_other_laws(void)
 {
     static const double counts[][8] = {{200, 80, 5, 1, 1, 5, 80, 200},
