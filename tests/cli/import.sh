@@ -146,8 +146,9 @@ for cell in box xy xz; do
 done
 for cell in box xy xz; do
     # shellcheck disable=SC2086
-    is "the packing $cell is measured" in_patience "$greenbody" pack default $tilted \
-        structure.from=$cell.csv particles.count=400 --out "pack-$cell" >stdout 2>stderr
+    in_patience "$greenbody" pack default $tilted structure.from=$cell.csv \
+        particles.count=400 --out "pack-$cell" >stdout 2>stderr
+    result "the packing $cell is measured" $?
     # shellcheck disable=SC2016
     sed -n '/^coordination/,/^spans/p' stdout >"pack-$cell.txt"
     is 'with the contacts and clusters that it has' cmp -s pack-box.txt "pack-$cell.txt"
