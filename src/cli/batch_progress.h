@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "base/lock.h"
+#include "io/lock.h"
 #include "many/ensemble.h"
 #include "many/launch.h"
 

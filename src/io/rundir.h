@@ -4,8 +4,8 @@
 #include <glib.h>
 #include <stdbool.h>
 
-#include "base/lock.h"
 #include "greenbody/status.h"
+#include "io/lock.h"
 
 /* The directory of a run: checked, made, locked, removed.  io/store.h writes its files. */
 struct gb_rundir {

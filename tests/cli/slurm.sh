@@ -130,9 +130,9 @@ as_one 'an array of 8' array
 is 'an array of 8: the first shows progress alone' \
     [ "$(cat "${job}"_*.out | grep -c ' runs, .* done before')" -eq 1 ]
 
-submit 100 '--array=1-12 --ntasks=1' "sed -n \"\${SLURM_ARRAY_TASK_ID}p\" tasks | sh #" ''
 eval "PATH=\$(dirname '$greenbody'):\$PATH ${sweep/PARTICLES/100} --tasks --out '$here/tasks.out'" \
     2>stderr | sed "s|^greenbody|'$greenbody'|" >tasks
+submit 100 '--array=1-12 --ntasks=1' "sed -n \"\${SLURM_ARRAY_TASK_ID}p\" tasks | sh #" ''
 over 'an array of tasks'
 eval "in_patience ${sweep/PARTICLES/100} --collect --out tasks.out" >stdout 2>stderr
 as_one 'an array of tasks' tasks.out

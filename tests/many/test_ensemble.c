@@ -7,8 +7,8 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "base/lock.h"
 #include "common/scene.h"
+#include "io/lock.h"
 #include "io/store.h"
 #include "many/ensemble.h"
 #include "many/reading.h"

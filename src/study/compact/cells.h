@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/lock.h"
 #include "greenbody/params.h"
+#include "io/lock.h"
 #include "many/pool.h"
 #include "scene/field/keep_points.h"
 

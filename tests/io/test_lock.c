@@ -7,7 +7,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "base/lock.h"
+#include "io/lock.h"
 
 /* A lock ends with its holder and with nothing else. */
 

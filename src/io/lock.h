@@ -1,5 +1,5 @@
-#ifndef GB_BASE_LOCK_H
-#define GB_BASE_LOCK_H
+#ifndef GB_IO_LOCK_H
+#define GB_IO_LOCK_H
 
 #include <stdbool.h>
 #include <sys/types.h>
