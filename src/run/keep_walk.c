@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "run/record/kept_states.h"
+
 /* Force evaluations between two questions whether to stop. */
 enum { SLICE = 200 };
 
@@ -18,7 +20,7 @@ struct progress {
 static unsigned find_due(struct progress *progress, const struct gb_point *point)
 {
     unsigned due = 0;
-    if (point->branch != GB_BRANCH_LOAD) {
+    if (!gb_kept_states_loads(point)) {
         return 0;
     }
     for (int k = 0; k < progress->points->count; k++) {

@@ -16,9 +16,14 @@ void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *
     (void)gb_keep_points_parse(params->snapshots_at, &states->marks, NULL);
 }
 
+bool gb_kept_states_loads(const struct gb_point *point)
+{
+    return point->branch == GB_BRANCH_LOAD || point->branch < GB_BRANCH_LEG;
+}
+
 void gb_kept_states_pass(struct gb_kept_states *states, const struct gb_point *point)
 {
-    if (point->branch == GB_BRANCH_LOAD) {
+    if (gb_kept_states_loads(point)) {
         states->p_pa = fmax(states->p_pa, point->p_pa);
         states->density = fmax(states->density, point->density);
     } else if (point->branch > GB_BRANCH_LOAD) {
@@ -31,7 +36,7 @@ static bool reaches(const struct gb_kept_states *states, const struct gb_keep_po
 {
     const double before = mark->by_density ? states->density : states->p_pa;
     const double now = mark->by_density ? point->density : point->p_pa;
-    return point->branch == GB_BRANCH_LOAD &&
+    return gb_kept_states_loads(point) &&
            gb_keep_points_reached(mark, states->params, before, now);
 }
 

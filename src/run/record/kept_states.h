@@ -7,7 +7,7 @@
 #include "scene/field/keep_points.h"
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of
- * loading that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of every
+ * loading, whatever its leg, that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of every
  * n-th point ("point-000021").  They are made of the record that is taken at each point
  * in any case. */
 struct gb_kept_states {
@@ -18,6 +18,9 @@ struct gb_kept_states {
 
 /* Name of the state that is kept for a mark, without its ending. */
 char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size);
+
+/* Whether a recorded point is one of loading, where states are kept: in any leg of a path. */
+bool gb_kept_states_loads(const struct gb_point *point);
 
 /* The marks of checked params, which must outlive it. */
 void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params);
