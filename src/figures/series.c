@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/text/visible.h"
 #include "measure/fit/average.h"
 
 static void free_label(void *curve)
@@ -262,7 +263,9 @@ static void append_notes(GString *text, const char *notes)
     char **lines = g_strsplit(notes, "\n", -1);
     for (size_t i = 0; lines[i] != NULL; i++) {
         if (lines[i][0] != '\0') {
-            g_string_append_printf(text, "# %s\n", lines[i]);
+            g_string_append(text, "# ");
+            gb_visible_add_cell(text, lines[i], false);
+            g_string_append_c(text, '\n');
         }
     }
     g_strfreev(lines);

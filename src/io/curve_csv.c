@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "base/text/visible.h"
 #include "io/line_file.h"
 #include "io/point_columns.h"
 #include "scene/derived.h"
@@ -122,7 +123,10 @@ static const struct column_set {
 GString *gb_curve_csv_head(const struct gb_params *params)
 {
     GString *head = g_string_new("# greenbody " GB_VERSION "\n# preset: ");
-    gb_line_file_add_text(head, params->title);
+    GString *title = g_string_new(NULL);
+    gb_visible_add_cell(title, params->title, false);
+    gb_line_file_add_text(head, title->str);
+    g_string_free(title, TRUE);
     g_string_append_printf(head, "# seed: %" PRIu64 "\n", params->seed);
     g_string_append(
         head, "# units: pressures in MPa; density is the share of the volume "

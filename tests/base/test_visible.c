@@ -53,11 +53,40 @@ static void test_print(void)
     free(text);
 }
 
+/* No cell is a formula, however a spreadsheet cuts the line. */
+static void test_cell(void)
+{
+    static const struct {
+        const char *text, *cell, *comment;
+    } rows[] = {{"=1+1", "'=1+1", "=1+1"},
+                {"+a", "'+a", "+a"},
+                {"-a", "'-a", "-a"},
+                {"@a", "'@a", "@a"},
+                {" =a", " '=a", " =a"},
+                {"-1.5", "-1.5", "-1.5"},
+                {"+2e-3, -4", "+2e-3, -4", "+2e-3, -4"},
+                {"a,=b", "a,'=b", "a,'=b"},
+                {"a; \"=b\"", "a; \"'=b\"", "a; \"'=b\""},
+                {"a\t@b", "a\t'@b", "a\t'@b"},
+                {"a=b", "a=b", "a=b"},
+                {"", "", ""}};
+    for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
+        GString *cell = g_string_new(NULL), *comment = g_string_new("# ");
+        gb_visible_add_cell(cell, rows[k].text, true);
+        gb_visible_add_cell(comment, rows[k].text, false);
+        g_assert_cmpstr(cell->str, ==, rows[k].cell);
+        g_assert_cmpstr(comment->str + 2, ==, rows[k].comment);
+        g_string_free(cell, TRUE);
+        g_string_free(comment, TRUE);
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/visible/text", test_text);
     g_test_add_func("/visible/copy", test_copy);
     g_test_add_func("/visible/print", test_print);
+    g_test_add_func("/visible/cell", test_cell);
     return g_test_run();
 }

@@ -75,5 +75,17 @@ is 'a package that cannot be installed ends it' [ $? -eq 3 ]
 is 'with the last lines of dpkg' [ "$(grep -c Unpacking stderr)" -eq 20 ]
 is 'and the name of the log' grep -q 'build-packages.log' stderr
 
+# A package of Debian is made of a build for /usr.
+mkdir deb
+cat >deb/meson <<'END'
+#!/bin/sh
+echo '[{"name": "python.install_env", "value": "prefix"}, {"name": "prefix", "value": "/opt/x"}]'
+END
+chmod +x deb/meson
+PATH=$here/deb:$PATH sh "$source/packaging/deb.sh" some-build 1.0 . >stdout 2>stderr
+is 'deb.sh refuses another prefix' [ $? -eq 2 ]
+is 'in one line' grep -qx 'deb.sh: prefix = /opt/x of some-build: expected /usr (.*)' stderr
+is 'and nothing else' [ "$(wc -l <stderr)" -eq 1 ]
+
 echo "1..$tests"
 exit $bad

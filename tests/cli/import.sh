@@ -181,6 +181,11 @@ rows() { # edge of the cell along x: a row of twelve, and two of them side by si
 rows 4 >narrow.csv
 { rows 40 && echo 1,1,one,2; } >word.csv
 refused 'deep overlaps, with numbers' 'particles 1 and 13 by 0.75: must be at most 0.5' deep.csv
+{
+    printf '# cell, um: 3 3 3\nx_um,y_um,z_um,diameter_um\n'
+    awk 'BEGIN { for (i = 0; i < 4000; i++) printf "%g,%g,%g,1\n", i % 16 / 16, int(i / 16) % 16 / 16, i / 4096 }'
+} >collapsed.csv
+refused 'a packing that has collapsed' 'the packing has collapsed' collapsed.csv
 refused 'a narrow cell' 'a cell of 2 d along x' narrow.csv
 sed 's/^# cell.*/& tilt xy xz yz, um: 1 2/' deep.csv >tilts.csv
 refused 'a tilt too few' 'tilts.csv:1: 2 tilts of the cell: must be 3' tilts.csv

@@ -86,6 +86,9 @@ refused 'no directory' '--out' "$greenbody" papers
 refused 'an unknown experiment' 'accepted P1' "$greenbody" papers --only P4 --out out
 refused 'a word too many' 'options only' "$greenbody" papers P1 --out out
 refused 'too few particles' '--count 3: must be between 50' "$greenbody" papers --count 3 --out out
+refused 'no particles' '--count 0: must be between 50' "$greenbody" papers --count 0 --out out
+refused 'no cells' '--cells 0: must be between 1' "$greenbody" papers --cells 0 --out out
+refused 'fewer than none' '--cells -1: must be between 1' "$greenbody" papers --cells -1 --out out
 refused 'an experiment that this size leaves out' 'no cells' \
     "$greenbody" papers --fast --only P2-v5 --out out
 in_patience "$greenbody" papers --only P1-fig5 --count 120 --cells 2 --out one >stdout 2>stderr

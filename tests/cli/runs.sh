@@ -67,6 +67,33 @@ assert done["bytes"] > 1000 and done["modified"].endswith("Z"), done
 assert os.path.isdir(done["directory"]) and done["title"] != "", done
 assert runs["broken"]["density"] is None, runs'
 
+# --- folders that overlap, and words that a spreadsheet would compute
+rm -rf twice
+"$greenbody" run default 'scene.title==1+1,=2+2' particles.count=100 'loading.until=5 MPa' \
+    loading.unload_from= --quiet --out twice/one >stdout 2>stderr
+is 'a run with a formula for a title' [ $? -eq 0 ]
+lists_once() { # folders
+    "$greenbody" runs "$@" >stdout 2>stderr
+    [ "$(grep -c 'one  *done' stdout)" -eq 1 ]
+}
+is 'a folder given twice is listed once' lists_once twice twice
+is 'also by two paths' lists_once twice ./twice/../twice "$PWD/twice"
+is 'also within one another' lists_once . twice twice/one/..
+"$greenbody" sweep default 'scene.title==1+1,=2+2' particles.count=100 'loading.until=5 MPa' \
+    loading.unload_from= --vary 'material.name==1+1;@x;+y;-z' --replicas 1 --quiet \
+    --out twice/sweep >stdout 2>stderr
+"$greenbody" plot twice/one --figure densification -o twice/f.svg >stdout 2>stderr
+"$greenbody" export twice/one/state.h5 --format=csv -o twice/e.csv >stdout 2>stderr
+is 'no table has a formula' python3 -c 'import glob, re, sys
+tables = glob.glob("twice/**/*.csv", recursive=True)
+assert len(tables) > 8, tables
+for path in tables:
+    for line in open(path):
+        for cell in re.split("[,;\t]", line.strip("\n")):
+            cell = cell.strip(" \"")
+            if cell[:1] in tuple("=+-@") and cell:
+                float(cell.split()[0])'
+
 # --- attach without a run
 "$greenbody" attach >stdout 2>stderr
 is 'attach without a live run is refused' [ $? -eq 2 ]

@@ -98,3 +98,23 @@ void gb_visible_rewrite(FILE *to, int width, const char *line)
     fflush(to);
     g_free(shown);
 }
+
+/* Is the rest of a cell a number? */
+static bool is_number(const char *text)
+{
+    char *end = NULL;
+    (void)g_ascii_strtod(text, &end);
+    return end != text && (*end == '\0' || strchr(" ,;\t)", *end) != NULL);
+}
+
+void gb_visible_add_cell(GString *to, const char *text, bool cell)
+{
+    bool begins = cell;
+    for (const char *c = text; *c != '\0'; c++) {
+        if (begins && strchr("=+-@", *c) != NULL && !is_number(c)) {
+            g_string_append_c(to, '\'');
+        }
+        g_string_append_c(to, *c);
+        begins = strchr(",;\t", *c) != NULL || (begins && strchr(" \"", *c) != NULL);
+    }
+}

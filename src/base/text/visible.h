@@ -19,6 +19,12 @@ void gb_visible_copy(char *to, size_t size, const char *text);
 /* The text in newly allocated memory (g_free).  Control characters named in kept stay. */
 char *gb_visible_text(const char *text, const char *kept);
 
+/* Adds text to a table that a spreadsheet may open.  Where a cell would begin with =, +, - or @
+ * and is no number, it would be a formula there: a "'" goes in front.
+ *
+ * cell   the text begins a cell; false: something precedes it, as in a comment */
+void gb_visible_add_cell(GString *to, const char *text, bool cell);
+
 /* Prints to a terminal or a pipe; new lines and tabs stay.  False: errno says why. */
 bool gb_visible_put(FILE *to, const char *text);
 bool gb_visible_print(FILE *to, const char *format, ...) G_GNUC_PRINTF(2, 3);

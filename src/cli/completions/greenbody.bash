@@ -57,6 +57,8 @@ _greenbody_quoted() { # text, quote, what was typed
         REPLY=$home$REPLY
         ;;
     esac
+    # readline closes the quote, unless the text ends with one
+    [[ -z $2 || $REPLY != *"$2" ]] || REPLY+=$2
 }
 
 _greenbody() {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "base/text/visible.h"
 #include "base/vec.h"
 #include "pack/cell/cell.h"
 
@@ -46,7 +47,10 @@ void gb_export_text_provenance(GString *text, const struct gb_export_frame *fram
 {
     const struct gb_state *state = frame->state;
     g_string_append(text, "greenbody " GB_VERSION "; preset ");
-    gb_export_text_title(text, state);
+    GString *title = g_string_new(NULL);
+    gb_export_text_title(title, state);
+    gb_visible_add_cell(text, title->str, false);
+    g_string_free(title, TRUE);
     g_string_append_printf(text, "; seed %" PRIu64 "; density ", state->seed);
     gb_export_text_number(text, state->point.density, ';');
     g_string_append(text, " p ");

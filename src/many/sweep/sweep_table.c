@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "many/sweep/sweep_readings.h"
 #include "many/sweep/sweep_shortfall.h"
@@ -99,7 +100,8 @@ static void append_values(GString *text, const struct gb_axes *axes, size_t poin
     for (size_t i = 0; i < axes->count; i++) {
         char cell[GB_PARAMS_VALUE_MAX];
         gb_axes_cell(axes, point, i, cell, sizeof cell);
-        g_string_append_printf(text, ",%s", cell);
+        g_string_append_c(text, ',');
+        gb_visible_add_cell(text, cell, true);
     }
 }
 
