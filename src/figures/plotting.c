@@ -24,7 +24,7 @@ static bool check_file(const char *path, enum gb_plotting_existing existing,
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             path);
     }
-    return gb_rundir_files_spare(path, err) && gb_file_check_target(path, err);
+    return gb_rundir_files_protect(path, err) && gb_file_check_target(path, err);
 }
 
 /* The CSV of the same figure in another format has the same data. */
@@ -56,7 +56,7 @@ bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
     }
     char *csv = csv_path(output);
     const bool good = check_file(output, existing, err) &&
-                      gb_rundir_files_spare(csv, err) && gb_file_check_target(csv, err);
+                      gb_rundir_files_protect(csv, err) && gb_file_check_target(csv, err);
     g_free(csv);
     return good;
 }

@@ -57,7 +57,7 @@ static bool has_run(const char *directory)
     return has;
 }
 
-bool gb_rundir_files_spare(const char *path, struct gb_error *err)
+bool gb_rundir_files_protect(const char *path, struct gb_error *err)
 {
     char *true_path = realpath(path, NULL); /* links lead to the file that is replaced */
     const char *target = true_path != NULL ? true_path : path;

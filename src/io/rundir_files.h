@@ -13,7 +13,7 @@ char *gb_rundir_files_foreign(const char *path, int *entries, GError **failure);
 
 /* Refuses a file of a run as the target of another command: a name that runs write, in a
  * directory with a preset.ini, or in its folder of snapshots.  Errors: GB_ERR_INPUT. */
-bool gb_rundir_files_spare(const char *path, struct gb_error *err);
+bool gb_rundir_files_protect(const char *path, struct gb_error *err);
 
 /* Removes the files of a run; entries of other names stay. */
 bool gb_rundir_files_remove(const char *path, struct gb_error *err);

@@ -53,7 +53,7 @@ static bool check_target(const char *path, gboolean force, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; accepted with --force",
                             path);
     }
-    return gb_rundir_files_spare(path, err) && gb_file_check_target(path, err);
+    return gb_rundir_files_protect(path, err) && gb_file_check_target(path, err);
 }
 
 static bool add(struct export *job, struct gb_state *state, int64_t index,

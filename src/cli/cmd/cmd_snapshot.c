@@ -215,7 +215,7 @@ static bool take_picture(const struct request *request, char **words,
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             request->output);
     }
-    return gb_rundir_files_spare(request->output, err) &&
+    return gb_rundir_files_protect(request->output, err) &&
            write_picture(request, &packing_image, words, err);
 }
 

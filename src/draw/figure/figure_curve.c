@@ -260,6 +260,7 @@ enum { POINTS_FULL = 20000, CELLS_MOST = 10000 };
 
 /* Width of columns and least width of cells, points: a dot at 360 per inch. */
 static const double column_width = 0.2, cell_least = 0.4, cell_most = 3.2;
+static const double arrow_cell = 0.8;
 
 /* The points that stay, in a copy of a curve. */
 struct thinned {
@@ -410,8 +411,8 @@ static void thin_arrows(struct thinned *kept, const struct gb_figure_layout *lay
             gsize cell = 0;
             for (int c = 0; c < 2; c++) {
                 const double low = layout->frame[c], high = layout->frame[c + 2];
-                cell = cell << 16 | cell_of(a[c], low, high, cell_most);
-                cell = cell << 16 | cell_of(b[c], low, high, cell_most);
+                cell = cell << 16 | cell_of(a[c], low, high, arrow_cell);
+                cell = cell << 16 | cell_of(b[c], low, high, arrow_cell);
             }
             if (g_hash_table_add(seen, GSIZE_TO_POINTER(cell))) {
                 const double none = NAN;

@@ -30,7 +30,7 @@ static bool is_numbered(const char *output)
 
 static bool check_target(const char *path, bool force, struct gb_error *err)
 {
-    return gb_rundir_files_spare(path, err) && gb_file_check_target(path, err) &&
+    return gb_rundir_files_protect(path, err) && gb_file_check_target(path, err) &&
            (force || !g_file_test(path, G_FILE_TEST_EXISTS) ||
             gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it", path));
 }
