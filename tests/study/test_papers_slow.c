@@ -52,7 +52,7 @@ static const struct gb_papers_result *find(const struct gb_papers_results *resul
 
 static void compute(struct gb_papers_plan *plan)
 {
-    const struct gb_ensemble_callbacks none = {NULL, NULL, NULL};
+    const struct gb_ensemble_callbacks none = {.cancelled = NULL};
     struct gb_pool *pool = NULL;
     struct gb_error err = {0};
     if (!gb_pool_create(&pool, g_get_num_processors(), gb_single_run, &err) ||
