@@ -40,7 +40,7 @@ static uint64_t *contact_keys(const struct gb_state *state, struct gb_error *err
 }
 
 /* Positions inside the cell, then diameters; gb_alloc_free. */
-static double *place(const struct gb_state *state, const struct gb_cell *cell,
+static double *inside(const struct gb_state *state, const struct gb_cell *cell,
                      struct gb_error *err)
 {
     const size_t count = (size_t)state->count;
@@ -128,7 +128,7 @@ bool gb_state_gaps_init(struct gb_state_gaps *gaps, const struct gb_state *state
     const struct gb_list_build_range range = {state->attraction_cutoff, skin};
     struct gb_neighbour_list list = {0};
     uint64_t *contact = contact_keys(state, err);
-    double *at = contact ? place(state, &cell, err) : NULL;
+    double *at = contact ? inside(state, &cell, err) : NULL;
     bool done = at && gb_neighbour_list_init(&list, state->count,
                                              GB_NEIGHBOUR_LIST_TRANSPOSED, err);
     for (int64_t i = 0; done && i < state->count; i++) {
