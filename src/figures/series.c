@@ -230,8 +230,7 @@ static bool has_enough(const struct gb_figure *drawn, const struct gb_series_axi
                        double *first)
 {
     for (size_t k = 0; k < drawn->count; k++) {
-        if (has_another(&drawn->curve[k], first) ||
-            (!axis->several && !isnan(*first))) {
+        if (has_another(&drawn->curve[k], first) || (!axis->several && !isnan(*first))) {
             return true;
         }
     }

@@ -172,7 +172,7 @@ for name in 'run`>PWNED`' 'run$(>PWNED)' 'run;>PWNED' 'run"`>PWNED`"' "run'>PWNE
     : >"$XDG_CONFIG_HOME/greenbody/presets/p$n$name.ini"
     printf '%s\n' "$n$name" >>evil
 done
-screen="tmux -L greenbody-completion-$$"
+screen=: # the terminal of the shell
 seen() { # text
     $screen capture-pane -p >stdout && grep -qF -- "$1" stdout
 }
@@ -181,6 +181,7 @@ shows() { # text
 }
 opens() { # command that starts the shell
     $screen kill-server 2>/dev/null
+    screen="tmux -L greenbody-completion-$$-$tests" # a server that ends keeps its name for a while
     $screen -f /dev/null new-session -d -x 120 -y 20 \
         "env HOME='$here' ZDOTDIR='$here' HISTFILE=/dev/null PATH='$here/stand-in:$PATH' $1"
     shows 'Z>'

@@ -151,8 +151,9 @@ class Arrays(Folder):
             thread.start()
             thread.join()
 
-        run = greenbody.Experiment('default', SMALL, count=2000, progress=look)
-        run.run()
+        run = greenbody.Experiment('default', SMALL, count=2000, until='1 GPa', progress=look)
+        while not seen:
+            run.advance(1)
         self.assertEqual(set(seen), {'the experiment is advanced by another thread'})
         self.assertEqual(run.position.shape, (2000, 3))
         with self.assertRaises(greenbody.InputError):

@@ -41,8 +41,8 @@ static bool check_range(const char *option, int value, int least, int most,
                         struct gb_error *err)
 {
     return value == DEFAULT || (value >= least && value <= most) ||
-           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option, value,
-                        least, most);
+           gb_error_set(err, GB_ERR_INPUT, "%s %d: must be between %d and %d", option,
+                        value, least, most);
 }
 
 static bool check_request(const struct request *request, char **words,

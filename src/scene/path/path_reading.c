@@ -20,7 +20,8 @@ static bool is_unit(const char *word)
     char *one = g_strdup_printf("1 %s", word);
     double value = 0.0;
     bool found = g_ascii_isalpha(word[0]) && g_str_has_suffix(word, "Pa");
-    for (int k = GB_DIM_FRACTION; !found && word[0] != '\0' && k <= GB_DIM_COMPLIANCE; k++) {
+    for (int k = GB_DIM_FRACTION; !found && word[0] != '\0' && k <= GB_DIM_COMPLIANCE;
+         k++) {
         found = gb_units_parse(one, (enum gb_dimension)k, &value, NULL);
     }
     g_free(one);
@@ -33,7 +34,7 @@ bool gb_path_reading_expected(struct gb_path_reading *in, const char *what)
     if (in->words.next > 0 && is_number(in->words.word[in->words.next - 1]) &&
         is_unit(word)) {
         return gb_error_set(in->err, GB_ERR_INPUT,
-                            "'%.24s %.24s': must have a unit that fits here: %s for a "
+                            "'%.24s %.24s': its unit must be one of %s for a "
                             "pressure, %% for a strain, none for a density or a ratio",
                             in->words.word[in->words.next - 1], word,
                             gb_units_accepted(GB_DIM_PRESSURE));
