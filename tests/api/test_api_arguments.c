@@ -148,6 +148,7 @@ ROW(parameters_set, PARAMETERS, TEXT, ERR)
 ROW(parameters_get, PARAMETERS, TEXT, BUFFER, SIZE, ERR)
 ROW(parameters_label, PARAMETERS, TEXT, BUFFER, SIZE, ERR)
 ROW(parameters_check, PARAMETERS, ERR)
+ROW(parameters_check_cells, PARAMETERS, INDEX, ERR)
 ROW(parameters_save, PARAMETERS, PATH, ERR)
 ROW(parameters_text, INDEX,
     PICK(enum gb_parameters_text, GB_PARAMETERS_KEY, (enum gb_parameters_text)ABSURD),
@@ -235,6 +236,7 @@ static const struct row {
     R(parameters_get),
     R(parameters_label),
     R(parameters_check),
+    R(parameters_check_cells),
     R(parameters_save),
     R(parameters_text),
     R(parameters_presets),
