@@ -178,6 +178,12 @@ static void write_chart(void)
         "fire,1000,1,3,900,9,,0,0,0,0,0.003\n"
         "fire,1000,0,3,200,2,0.01,1,0,0.008,0.002,0.005\n"
         "fire,1000,0,3,100,1,0.02,1,1,-0.02,0.001,0.004\n");
+    figure_folder_write(
+        "chart", "E.csv",
+        "quantity,unit,reference,default,cost,value,error,error_95,half_interval,chosen\n"
+        "E,GPa,1,0,4,8,,,0.4,0\n"
+        "E,GPa,0,1,1,8.2,0.2,0.1,0.4,0\n"
+        "E,GPa,0,0,2,8.1,0.1,0.1,0.4,1\n");
 }
 
 static void write_card(void)

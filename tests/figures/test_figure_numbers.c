@@ -209,8 +209,8 @@ static void test_fit(void)
         /* p = 100 (rho - 0.4)^2 GPa less 1 MPa, between points of the curve */
         g_assert_cmpfloat_with_epsilon(rho, 0.4 + sqrt((p - 1.0) / 1e5), 1e-3);
         g_assert_cmpfloat_with_epsilon(
-            csv_cell(&series, "residual_secondi_1_percent", row),
-            100.0 * (rho - csv_cell(&series, "secondi_1", row)), 1e-6);
+            csv_cell(&series, "residual_shapiro-konopicky_1_percent", row),
+            100.0 * (rho - csv_cell(&series, "shapiro-konopicky_1", row)), 1e-6);
     }
     gb_series_figure(&series, &figure, &curves);
     g_assert_cmpuint(figure.count + figure.below_count, ==, series.curves->len);

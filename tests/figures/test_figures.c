@@ -46,6 +46,7 @@ static const struct source {
     {"die-axial", {"cycle1", "cycle2"}},
     {"die-radial", {"cycle1"}},
     {"die-map", {"cycle1", "cycle2"}},
+    {"chart-quantity", {"chart/E.csv"}},
     {"card", {"card"}},
     {"card-uniaxial", {"card"}},
     {"yield", {"yield"}},
@@ -147,9 +148,10 @@ static void test_empty(void)
         }
         g_assert_true(gb_series_check_drawable(&series, "pie", &err) == with_value);
         g_assert_cmpstr(err.text, ==,
-                        with_value ? ""
-                                   : "pie: there is no value to draw; a CSV has the empty "
-                                     "table");
+                        with_value
+                            ? ""
+                            : "pie: there is no value to draw; a CSV has the empty "
+                              "table");
         series.x.several = true;
         g_assert_false(gb_series_check_drawable(&series, "pie", &err));
         if (with_value) {
