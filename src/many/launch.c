@@ -8,7 +8,9 @@
 
 #include <glib.h>
 
-enum { COUNT_MOST = 10000000 };
+#include "base/read_file.h"
+
+enum { COUNT_MOST = 10000000, TEXT_BYTES = 16384 };
 
 /* Variables of one launcher. */
 struct variables {
@@ -67,18 +69,29 @@ struct gb_launch gb_launch_read(void)
     return launch;
 }
 
+/* The beginning of a file of the kernel, which has no size before it is read. */
+static bool read_text(const char *path, char text[TEXT_BYTES])
+{
+    const int file = gb_read_file_open(path, NULL);
+    const ssize_t length = file >= 0 ? read(file, text, TEXT_BYTES - 1) : -1;
+    if (file >= 0) {
+        close(file);
+    }
+    text[length > 0 ? length : 0] = '\0';
+    return length > 0;
+}
+
 /* cpu.max of one cgroup, "400000 100000" or "max 100000": processors, rounded up. */
 static long read_quota(const char *folder)
 {
     char *path = g_build_filename(folder, "cpu.max", NULL);
-    char *text = NULL;
+    char text[TEXT_BYTES];
     double used = 0.0, period = 0.0;
     long cores = 0;
-    if (g_file_get_contents(path, &text, NULL, NULL) &&
-        sscanf(text, "%lf %lf", &used, &period) == 2 && used > 0.0 && period > 0.0) {
+    if (read_text(path, text) && sscanf(text, "%lf %lf", &used, &period) == 2 &&
+        used > 0.0 && period > 0.0) {
         cores = (long)fmin(fmax(ceil(used / period), 1.0), COUNT_MOST);
     }
-    g_free(text);
     g_free(path);
     return cores;
 }
@@ -104,9 +117,9 @@ long gb_launch_quota(const char *root, const char *group)
 
 static long own_quota(void)
 {
-    char *text = NULL;
+    char text[TEXT_BYTES];
     long cores = 0;
-    if (g_file_get_contents("/proc/self/cgroup", &text, NULL, NULL)) {
+    if (read_text("/proc/self/cgroup", text)) {
         char **lines = g_strsplit(text, "\n", -1);
         for (int i = 0; lines[i] != NULL; i++) {
             if (g_str_has_prefix(lines[i], "0::/")) {
@@ -115,7 +128,6 @@ static long own_quota(void)
         }
         g_strfreev(lines);
     }
-    g_free(text);
     return cores;
 }
 

@@ -14,7 +14,7 @@ def cells(row, cols):
 def box_of(rows, title):
     """Corners of the box with this title: row, left, right, last row; None: no box."""
     for top, row in enumerate(rows):
-        match = re.search(r'[┌+][─-]+ ' + re.escape(title) + r'.* [─-]*[┐+]', row)
+        match = re.search(r'[┌+][─-]+ ' + re.escape(title) + r'[^┐+]* [─-]*[┐+]', row)
         if match and top + 1 < len(rows):
             left, right = match.start(), match.end() - 1
             last = top + 1

@@ -237,7 +237,7 @@ static void print_tasks(const struct command *command)
     }
     for (size_t i = 0; i < runs; i++) {
         if (!ensemble->run[i].ended) {
-            printf("%s --part %zu/%zu\n", text->str, i + 1, runs);
+            gb_visible_print(stdout, "%s --part %zu/%zu\n", text->str, i + 1, runs);
         }
     }
     g_string_free(text, TRUE);
