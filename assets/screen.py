@@ -3,7 +3,7 @@
 
 tmux capture-pane -e -p -t PANE | assets/screen.py screen.png
 
-Colours are those of the escape sequences, Braille dots and half blocks are drawn as dots and
+Colours come from the escape sequences, Braille dots and half blocks are drawn as dots and
 blocks.
 """
 import ctypes

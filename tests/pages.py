@@ -7,7 +7,7 @@ Every command has a line of the table of commands, and every line a command; so 
 status.  Every key of the
 table of keys, which is a selection, is a key of the workbench.  Figures, commands, presets and tests
 that the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
-Every picture of assets is shown by a page and has a row of CONTRIBUTING.md.
+Every picture of assets is shown by a page and has a row of assets/README.md.
 """
 import pathlib
 import re
@@ -109,12 +109,12 @@ def wrong_pictures(source):
     for page in [source / 'README.md', *sorted(source.glob('docs/*.md'))]:
         shown |= set(re.findall(r'\]\((?:\.\./)?assets/([\w.-]+\.png)\)',
                                 page.read_text(encoding='utf-8')))
-    recipe = (source / 'CONTRIBUTING.md').read_text(encoding='utf-8')
+    recipe = (source / 'assets/README.md').read_text(encoding='utf-8')
     made = {name for cell in rows(recipe, PICTURES) for name in re.findall(r'`(.+?)`', cell)}
     there = {path.name for path in (source / 'assets').glob('*.png')}
     for name in sorted(there | shown | made):
         for names, wrong in ((there, 'assets has no'), (shown, 'no page shows'),
-                             (made, 'CONTRIBUTING.md does not say how to make')):
+                             (made, 'assets/README.md does not say how to make')):
             if name not in names:
                 yield f'{wrong} {name}'
     for path in sorted((source / 'assets').glob('*.png')):
