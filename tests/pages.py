@@ -7,7 +7,8 @@ Every command has a line of the table of commands, and every line a command; so 
 status.  Every key of the
 table of keys, which is a selection, is a key of the workbench.  Figures, commands, presets and tests
 that the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
-Every picture of assets is shown by a page and has a row of assets/README.md.
+Every picture of assets is shown by a page and has a row of assets/README.md.  Links lead to files and
+headings that exist.
 """
 import pathlib
 import re
@@ -122,6 +123,26 @@ def wrong_pictures(source):
             yield f'{path.name}: more than 600 kB'
 
 
+def anchors(text):
+    """Of the headings, as GitHub makes them."""
+    text = re.sub(r'^```.*?^```', '', text, flags=re.DOTALL | re.MULTILINE)
+    return {re.sub(r'[^\w -]', '', heading.lower()).strip().replace(' ', '-')
+            for heading in re.findall(r'^#+ +(.*)$', text, re.MULTILINE)}
+
+
+def wrong_links(source):
+    """One line for each link to a file or heading that does not exist."""
+    for page in [*sorted(source.glob('*.md')), *sorted(source.glob('docs/*.md')),
+                 source / 'assets/README.md']:
+        for file, heading in re.findall(r'\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)',
+                                        page.read_text(encoding='utf-8')):
+            target = page.parent / file if file else page
+            if not target.exists():
+                yield f'{page.relative_to(source)}: there is no {file}'
+            elif heading and heading not in anchors(target.read_text(encoding='utf-8')):
+                yield f'{page.relative_to(source)}: {target.name} has no heading #{heading}'
+
+
 def main():
     text = (pathlib.Path(sys.argv[1]) / 'docs/manual.md').read_text(encoding='utf-8')
     commands = {line.split()[0] for line in asked(sys.argv[2], '--commands')}
@@ -143,6 +164,7 @@ def main():
     wrong += [f'docs/{line}' for line in wrong_pages(pathlib.Path(sys.argv[1]), known, commands)]
     wrong += wrong_tests(pathlib.Path(sys.argv[1]))
     wrong += wrong_pictures(pathlib.Path(sys.argv[1]))
+    wrong += wrong_links(pathlib.Path(sys.argv[1]))
     if not known:
         wrong.append('plot --help: no list of figures')
     for line in wrong:

@@ -28,20 +28,20 @@ enum { UNIAXIAL, BIAXIAL, ISOTROPIC };
 
 static const char stopping[] =
     "a relaxation that ends early gives it, P1 states no stopping rule; "
-    "`docs/p1-densities.md`";
+    "`docs/validation.md`";
 static const char coordination[] =
-    "no stopping rule of the relaxation explains it; `docs/p1-densities.md`";
+    "no stopping rule of the relaxation explains it; `docs/validation.md`";
 static const char first_contacts[] =
     "in a small cell the first particles, which touch fewer others, weigh more";
 static const char slow_stage[] =
-    "no quantity of the printed model gives a slow stage; `docs/p2-relaxation.md`";
+    "no quantity of the printed model gives a slow stage; `docs/validation.md`";
 static const char printed_radius[] =
     "with `contact.bridge_radius = current` and `contact.relative_motion = full` the "
     "pressures are P2's; `docs/validation.md`";
 static const char contacts[] =
     "the initial structure decides, (8) begins with 3.05 contacts; "
-    "`docs/p2-relaxation.md`";
-static const char rates[] = "the pressures prefer no exponent; `docs/p2-relaxation.md`";
+    "`docs/validation.md`";
+static const char rates[] = "the pressures prefer no exponent; `docs/validation.md`";
 static const char own_rule[] =
     "the paper's own rule, a curve through the yield point, gives 1049 MPa";
 static const char softest[] =
