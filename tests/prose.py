@@ -28,57 +28,58 @@ LONG_FRAGMENT = 12
 
 # ---- sentences ----------------------------------------------------------------------------------
 
-# Finite verbs.  Those that are nouns as well ("run", "measures") count at the beginning, before a word
-# of OBJECTS and after a word of SUBJECTS.
+# Finite verbs of the pages.  Those that are nouns as well ("run", "measures") count at the
+# beginning, before a word of OBJECTS and after a word of SUBJECTS.
 VERBS = set("""
-    is are was were be been has have had do does did can cannot could may might must will would shall
-    should need needs let lets it's don't doesn't isn't aren't
-    accept accepts add adds agree agrees allow allows appear appears apply applies ask asks avoid
-    avoids become becomes begin begins began belong belongs bring brings build builds call calls
-    carry carries change changes check checks choose chooses come comes compare compares compute
-    computes computed contain contains continue continues cost costs count counts cover covers
-    create creates decide decides depend depends describe describes determine determines differ
-    differs divide divides draw draws drop drops end ends enter enters exist exists exit exits
-    explain explains fail fails fall falls fill fills find finds finish finishes fit fits follow
-    follows follow form forms found gain gains get gets give gives given go goes grow grows hold
-    holds ignore ignores include includes install installs join joins keep keeps know knows lack
-    lacks leave leaves left lie lies limit limits list lists locks look looks lose loses lost make
-    makes matter matters mean means measures merge merges miss misses move moves name names open
-    opens overlap overlaps own owns pass passes places point prevents print prints produce produces
-    pull pulls push pushes put puts read reads receive receives record records refuse refuses
-    remain remains remove removes repeat repeats replace replaces report reports requires return
-    returns rise rises rejects reproduces resist resists resume resumes run runs save saves say says
-    scale scales scatter scatters search see sees select selects send sends serve serves set sets
-    share shares show shows slide slides solve solves stand stands start starts state states stay
-    stays stick stop stops store stores switch takes take tell tells test tests time times touch
-    touches transform try turn turns type use uses used vary varies verify verifies wait waits want
-    wants warn warns watch work works write writes export exports press presses script match matches
-    alternate alternates multiplies tolerates average averages cancel cancels catch catches converge
-    converges copy copies declare declares define defines edit edits estimate estimates expect expects
-    extend extends freeze freezes insert inserts keep link links load loads lock locks log mark marks
-    model models note notes offer offers plot plots pour pours publish publishes rename renames
-    sample samples skip skips sort sorts step sum sums support supports trust update updates
-    agrees arise arises assume assumes contribute contributes damp damps deform deforms
-    detect detects disturb exceed exceeds guarantee ignores imply implies interpolate loosens
-    normalise normalises occur occurs prefer prefers recompute recomputes recover recovers reduce
-    reduces refer refers relax relaxes require reset resets restore restores roll rolls sink sinks
-    start suit suits swap swaps sync syncs unload unloads vibrate vibrates view yield yields
+    accept accepts add adds agree agrees allow allows alternate alternates appear appears
+    applies apply are aren't arise arises ask asks assume assumes average averages avoid avoids
+    be become becomes been began begin begins belong belongs bring brings build builds call
+    calls can cancel cancels cannot carries carry catch catches change changes check checks
+    choose chooses come comes compare compares compute computed computes contain contains
+    continue continues contribute contributes converge converges copies copy cost costs could
+    count counts cover covers create creates damp damps decide decides declare declares define
+    defines deform deforms depend depends describe describes detect detects determine determines
+    did differ differs disturb divide divides do does doesn't don't draw draws drop drops edit
+    edits end ends enter enters estimate estimates exceed exceeds exist exists exit exits expect
+    expects explain explains export exports extend extends fail fails fall falls fill fills find
+    finds finish finishes fit fits follow follows form forms found freeze freezes gain gains get
+    gets give given gives go goes grow grows guarantee had has have hold holds ignore ignores
+    implies imply include includes insert inserts install installs interpolate is isn't it's
+    join joins keep keeps know knows lack lacks leave leaves left let lets lie lies limit limits
+    link links list lists load loads lock locks log look looks loosens lose loses lost make
+    makes mark marks match matches matter matters may mean means measures merge merges might
+    miss misses model models move moves multiplies must name names need needs normalise
+    normalises note notes occur occurs offer offers open opens overlap overlaps own owns pass
+    passes places plot plots point pour pours prefer prefers press presses prevents print prints
+    produce produces publish publishes pull pulls push pushes put puts read reads receive
+    receives recompute recomputes record records recover recovers reduce reduces refer refers
+    refuse refuses rejects relax relaxes remain remains remove removes rename renames repeat
+    repeats replace replaces report reports reproduces require requires reset resets resist
+    resists restore restores resume resumes return returns rise rises roll rolls run runs sample
+    samples save saves say says scale scales scatter scatters script search see sees select
+    selects send sends serve serves set sets shall share shares should show shows sink sinks
+    skip skips slide slides solve solves sort sorts stand stands start starts state states stay
+    stays step stick stop stops store stores suit suits sum sums support supports swap swaps
+    switch sync syncs take takes tell tells test tests time times tolerates touch touches
+    transform trust try turn turns type unload unloads update updates use used uses varies vary
+    verifies verify vibrate vibrates view wait waits want wants warn warns was watch were will
+    work works would write writes yield yields
     """.split())
 NOUNS_TOO = set("""
-    run runs step steps set sets state states point points time times measures test tests share
-    shares list lists name names form forms end ends need change changes cost costs fit fits
-    fill force forces limit limits report reports record records scale scales scatter start starts
-    turn turns type use work works place places record print call calls check checks count counts
-    given left used found lost computed stand stop switch search store stores search mean means
-    contact contacts cover fall falls gain gains move moves pass pull push return returns rise show
-    touch type cut try wait read reads open build draw export exports press script match matches
-    average averages copy copies estimate estimates link links load loads lock locks log mark marks
-    model models note notes offer offers plot plots sample samples sort sorts sum sums support trust
-    update updates roll rolls sync view yield yields watch hold step
+    average averages build call calls change changes check checks computed contact contacts
+    copies copy cost costs count counts cover cut draw end ends estimate estimates export
+    exports fall falls fill fit fits force forces form forms found gain gains given hold left
+    limit limits link links list lists load loads lock locks log lost mark marks match matches
+    mean means measures model models move moves name names need note notes offer offers open
+    pass place places plot plots point points press print pull push read reads record records
+    report reports return returns rise roll rolls run runs sample samples scale scales scatter
+    script search set sets share shares show sort sorts stand start starts state states step
+    steps stop store stores sum sums support switch sync test tests time times touch trust try
+    turn turns type update updates use used view wait watch work works yield yields
     """.split())
 OBJECTS = set("""
-    the a an this these its their your all each every no other it them what how which whether only
-    one two three code from over with to as if until when after where on
+    a after all an as code each every from how if it its no on one only other over the their
+    them these this three to two until what when where whether which with your
     """.split())
 SUBJECTS = set('it they you this these which that to code both all'.split())
 
@@ -140,7 +141,7 @@ def sentences(item, line):
 
 def percentile(lengths, fraction):
     """Linear between the sorted values."""
-    ranked = sorted(lengths)
+    ranked = sorted(lengths) or [0]
     at = fraction * (len(ranked) - 1)
     low = int(at)
     high = min(low + 1, len(ranked) - 1)
@@ -149,13 +150,12 @@ def percentile(lengths, fraction):
 
 def measure(text):
     """Sentences, median, 90th percentile, numbers per 100 words."""
-    lengths, words, numbers = [0], 0, 0
+    lengths, words, numbers = [], 0, 0
     for item, line in blocks(text):
         lengths += [len(sentence) for sentence in sentences(item, line)]
         plain = REFERENCES.sub(' ', line)
         words += len(words_of(line))
         numbers += len(NUMBER.findall(plain))
-    lengths = lengths[1:] or lengths
     return (len(lengths), percentile(lengths, 0.5), percentile(lengths, 0.9),
             100 * numbers / max(words, 1))
 
@@ -168,6 +168,7 @@ def check_sentences(root):
     for page in pages:
         count, median, p90, numbers = measure(page.read_text(encoding='utf-8'))
         bad = [name for name, wrong in (
+            ('sentences, none found', count < 3),
             ('median', median > MEDIAN_LIMIT), ('90 %', p90 > P90_LIMIT),
             ('numbers', numbers > NUMBERS_LIMIT_OF.get(page.name, NUMBERS_LIMIT))) if wrong]
         above += bool(bad)
@@ -192,7 +193,7 @@ PLAIN = [(re.compile(pattern, re.I), plain) for pattern, plain in (
     (r'\b(?:same|other) bits\b|\b(?:has|have|gives?) the bits\b', 'bit-identical results'),
     (r'\bby hand\b|\blooked at\b|\bin turn\b|\bquick(?:er|est)? hour\b', 'leave it out'),
     (r'\bwhat is not there\b|\bas far as\b|\bbe it\b|\bnone such\b', 'say it directly'),
-    (r'\bstands in\b|\bgo(?:es)? by\b|\bcomes? out at\b|\b(?:is|are) of\b', 'is in, uses, is'),
+    (r'\bstands in\b(?! for\b)|\bgo(?:es)? by\b|\bcomes? out at\b|\b(?:is|are) of\b', 'is in, uses, is'),
     (r'\b(?:a|the) share of\b|\ba part of\b', 'fraction'),
 )]
 
@@ -242,6 +243,7 @@ TOKEN = re.compile(r'''(?P<comment>/\*.*?\*/|//[^\n]*)
                       |(?P<char>'(?:\\.|[^'\\\n])*')
                       |(?P<name>[A-Za-z_][A-Za-z0-9_]*)''', re.S | re.X)
 COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*', re.S)
+PYTHON_TEXT = re.compile(r'""".*?"""|#[^\n]*', re.S)
 WORD = re.compile(r'[A-Za-z]+')
 
 
@@ -315,6 +317,12 @@ def check_header(text):
         yield from plain_words(comment.group(), line_of(text, comment.start()))
 
 
+def check_python(text):
+    """Phrases in docstrings and comments."""
+    for piece in PYTHON_TEXT.finditer(text):
+        yield from plain_words(piece.group(), line_of(text, piece.start()))
+
+
 def check_prose(text):
     """Phrases on a page, outside code."""
     hidden = re.sub(r'^(```|~~~).*?^\1|``.*?``|`[^`]*`',
@@ -343,8 +351,10 @@ def checks(root, path):
     elif path.suffix in ('.md', '.sh', '.in', '.build', '.ini', '.py') or path.name == 'bootstrap':
         if path.name != 'glossary.md' and path.suffix != '.py':
             yield check_page
-        if shown and path.suffix in ('.md', '.ini', '.in', '.py'):
+        if shown and path.suffix in ('.md', '.ini', '.in'):
             yield check_prose
+        if shown and path.suffix == '.py':
+            yield check_python
     if path.name == 'bootstrap':
         yield check_literals
 

@@ -132,7 +132,7 @@ class Experiment(Packing):
 
     @contextlib.contextmanager
     def _alone(self) -> Iterator[None]:
-        """In turn with other threads; while one of them advances: RuntimeError."""
+        """Excludes other threads.  Raises RuntimeError while one of them advances."""
         if not self._handle.lock.acquire(blocking=not self._advances):
             raise RuntimeError('the experiment is advanced by another thread')
         try:

@@ -165,8 +165,7 @@ FUNCTIONS = [
 
 
 def candidates() -> Iterator[str]:
-    """The library that GREENBODY_LIBRARY names, beside the installed module, where the loader
-    looks."""
+    """Paths of the library: GREENBODY_LIBRARY, the folders around the module, the loader's."""
     if os.environ.get('GREENBODY_LIBRARY'):
         yield os.environ['GREENBODY_LIBRARY']
     for folder in pathlib.Path(__file__).resolve().parents[1:6]:
@@ -182,7 +181,7 @@ def find() -> ctypes.CDLL:
             return ctypes.CDLL(path)
         except OSError as error:
             failures.append(str(error))
-    raise ImportError(f'{SONAME} is not found in GREENBODY_LIBRARY, beside the module or by the '
+    raise ImportError(f'{SONAME} is not found in GREENBODY_LIBRARY, next to the module or by the '
                       f'loader: {"; ".join(failures)}')
 
 

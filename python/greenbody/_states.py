@@ -80,8 +80,8 @@ def parameters_of(handle: Handle) -> Parameters:
 
 
 class Run:
-    """A run as plain data, which can be pickled: of a directory, as far as it is written, or
-    the result of `press`."""
+    """A run as plain data, which can be pickled: the result of `press`, or what a run directory
+    holds so far."""
 
     #: its directory; None of a run that was not recorded
     directory: Optional[pathlib.Path]
