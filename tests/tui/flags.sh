@@ -35,7 +35,9 @@ row_of() {
     screen | grep -n -- "$1" | head -n 1 | cut -d : -f 1
 }
 
-# --- without a screen
+# --- without a screen; the terminal is named here, for a caller may have none
+TERM=xterm-256color
+export TERM
 "$greenbody" --diagnose >"$here/out" 2>&1
 is "--diagnose leaves with 0" [ $? -eq 0 ]
 for word in locale size terminal colours theme plots mouse images clipboard frames settings log runs; do

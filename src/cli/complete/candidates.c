@@ -88,6 +88,11 @@ static void add_path(const struct gb_candidates *to, enum gb_candidates_path kin
     g_free(below);
 }
 
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
 void gb_candidates_paths(const struct gb_candidates *to, enum gb_candidates_path kind,
                          const char *const *endings)
 {
@@ -96,18 +101,26 @@ void gb_candidates_paths(const struct gb_candidates *to, enum gb_candidates_path
     const bool hidden = to->prefix[length] == '.';
     char *folder = folder_of(to->prefix, length);
     GDir *dir = g_dir_open(*folder != '\0' ? folder : ".", 0, NULL);
+    GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
     for (const char *name = dir != NULL ? g_dir_read_name(dir) : NULL; name != NULL;
          name = g_dir_read_name(dir)) {
-        char *path = g_build_filename(folder, name, NULL);
-        char *shown = g_strdup_printf("%.*s%s", (int)length, to->prefix, name);
         if ((name[0] == '.') == hidden) {
-            add_path(to, kind, endings, path, shown);
+            g_ptr_array_add(names, g_strdup(name));
         }
-        g_free(shown);
-        g_free(path);
     }
     if (dir != NULL) {
         g_dir_close(dir);
     }
+    /* a folder lists its files in an order of its own, which differs between disks */
+    g_ptr_array_sort(names, by_name);
+    for (guint i = 0; i < names->len; i++) {
+        const char *name = g_ptr_array_index(names, i);
+        char *path = g_build_filename(folder, name, NULL);
+        char *shown = g_strdup_printf("%.*s%s", (int)length, to->prefix, name);
+        add_path(to, kind, endings, path, shown);
+        g_free(shown);
+        g_free(path);
+    }
+    g_ptr_array_unref(names);
     g_free(folder);
 }

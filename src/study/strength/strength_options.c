@@ -19,7 +19,7 @@ void gb_strength_options_init(struct gb_strength_options *options)
         .step = 1e-3,
         .strain_most = 0.1,
         .fall = 0.6,
-        .tolerance = 1e-4,
+        .tolerance = 3e-3,
     };
 }
 

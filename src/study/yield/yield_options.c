@@ -14,9 +14,9 @@ void gb_yield_options_init(struct gb_yield_options *options)
         .directions = 12,
         .inside = 0.5,
         .offset = 1e-3,
-        .step = 1e-4,
+        .step = 5e-5,
         .strain_most = 0.03,
-        .tolerance = 1e-4,
+        .tolerance = 1e-3,
     };
 }
 
