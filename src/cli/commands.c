@@ -43,7 +43,6 @@ static const struct gb_commands_row rows[] = {
      gb_cmd_chart},
     {numerics, "stability", "longest stable step of each method, beside theory",
      gb_cmd_stability},
-    {numerics, "bench", "speed of the engine on this machine", gb_cmd_bench},
     {lists, "law", "values of a contact law as CSV", gb_cmd_law},
     {lists, "params", "every preset key: unit, range, default, meaning, source",
      gb_cmd_params},

@@ -26,7 +26,6 @@ void gb_commands_print_plain(FILE *to);
 char *gb_commands_names(void);
 
 int gb_cmd_attach(int argc, char **argv);
-int gb_cmd_bench(int argc, char **argv);
 int gb_cmd_calibrate(int argc, char **argv);
 int gb_cmd_card(int argc, char **argv);
 int gb_cmd_chart(int argc, char **argv);

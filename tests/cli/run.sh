@@ -117,8 +117,6 @@ is 'fit --json' json 'any(r["equation"] == "heckel" and r["parameter"] == "A" an
     "$greenbody" fit out --equation heckel --json
 is 'moduli --json' json 'len(o["rows"]) > 0 and all(r["C11_GPa"] > 0 for r in o["rows"])' \
     "$greenbody" moduli out --quiet --no-range --json
-is 'bench --json' json '[r["particles"] for r in o["rows"]][:2] == ["100", "200"]' \
-    "$greenbody" bench --sizes 100,200 --json
 rm -rf out
 
 # --- a compact beside its die, which has no density -----------------------------------------

@@ -416,69 +416,6 @@ static void test_sizes(void)
     g_free(path);
 }
 
-/* Every variant of a compressed packing has a time; a scene without attraction has no row
- * for its omission. */
-static void test_bench_terms(void)
-{
-    static const struct {
-        const char *words;
-        int rows;
-    } scene[] = {{"bench --terms --csv particles.count=300 --coordination 4.2", 6},
-                 {"bench --terms --csv particles.count=300 --coordination 4.2 "
-                  "material.epsilon=0J",
-                  3}};
-    for (size_t i = 0; i < G_N_ELEMENTS(scene); i++) {
-        struct result result = call(scene[i].words);
-        g_assert_cmpint(result.status, ==, 0);
-        char **lines = g_strsplit(g_strchomp(result.out), "\n", -1);
-        g_assert_cmpuint(g_strv_length(lines), ==, 1 + (guint)scene[i].rows);
-        g_assert_true(g_str_has_prefix(lines[1], "all terms,"));
-        for (int k = 1; k <= scene[i].rows; k++) {
-            const char *number = strchr(lines[k], ',') + 1;
-            g_assert_cmpfloat(g_ascii_strtod(number, NULL), >, 0.0);
-        }
-        g_strfreev(lines);
-        program_finish(&result);
-    }
-}
-
-/* A row for every size, and the exponent between them. */
-static void test_bench_sizes(void)
-{
-    struct result result = call("bench --sizes=150,300,600 --csv --coordination 4.2");
-    g_assert_cmpint(result.status, ==, 0);
-    char **lines = g_strsplit(g_strchomp(result.out), "\n", -1);
-    g_assert_cmpuint(g_strv_length(lines), ==, 5);
-    g_assert_true(g_str_has_prefix(lines[1], "150,"));
-    g_assert_true(g_str_has_prefix(lines[3], "600,"));
-    g_assert_true(g_str_has_prefix(lines[4], "exponent,,"));
-    const double power = g_ascii_strtod(lines[4] + strlen("exponent,,"), NULL);
-    g_assert_cmpfloat(power, >, 0.3);
-    g_assert_cmpfloat(power, <, 2.0);
-    g_strfreev(lines);
-    program_finish(&result);
-    result = call("bench --terms --sizes=150,300");
-    g_assert_cmpint(result.status, ==, 2);
-    g_assert_nonnull(strstr(result.err, "--terms, --sizes"));
-    program_finish(&result);
-    result = call("bench p3-hertz-mu0 --sizes=150,300");
-    g_assert_cmpint(result.status, ==, 2);
-    g_assert_cmpstr(result.out, ==, "");
-    program_finish(&result);
-    const char *const wrong[] = {"1000",      "1000,x", "1000,1000",
-                                 "2000,1000", "5,1000", ","};
-    for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
-        char *words = g_strconcat("bench --sizes=", wrong[i], NULL);
-        result = call(words);
-        g_assert_cmpint(result.status, ==, 2);
-        g_assert_cmpstr(result.out, ==, "");
-        g_assert_nonnull(strstr(result.err, "must be 2 to 16 growing numbers of "
-                                              "particles from 10 to 10000000"));
-        program_finish(&result);
-        g_free(words);
-    }
-}
-
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -489,8 +426,6 @@ int main(int argc, char **argv)
     g_setenv("LC_ALL", "C.UTF-8", TRUE);
     g_test_add_func("/cli/refused", test_refused);
     g_test_add_func("/cli/fine", test_fine);
-    g_test_add_func("/cli/bench-terms", test_bench_terms);
-    g_test_add_func("/cli/bench-sizes", test_bench_sizes);
     g_test_add_func("/cli/values", test_values);
     g_test_add_func("/cli/path", test_path);
     g_test_add_func("/cli/plastic-path", test_plastic_path);

@@ -1,28 +1,28 @@
-#include "study/bench/bench_die.h"
-
+/* Times the bed of P3 in its die, 1751 spheres at 50 MPa, with every contact law: one step
+ * (forces, histories, motion) per sphere.
+ * Usage: time_die */
+#include <stdio.h>
 #include <string.h>
 
 #include <glib.h>
-#include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 
-#include "base/clock.h"
+#include "bench.h"
 #include "greenbody/snapshot.h"
 #include "measure/observe_die.h"
 #include "pack/die/filling.h"
 #include "solve/leapfrog.h"
 #include "solve/loading/die/die_stages.h"
 
-/* Batches timed in a round, and steps in each: the median counts.  On one thread processor time,
- * because other work on the machine comes and goes. */
+/* Batches of a round, of which the median counts, and steps of a batch. */
 enum { BATCHES = 3, BATCH = 400 };
 
 /* A row of the table. */
 struct row {
-    const char *law;
+    const char *name, *law;
     double mu;
     int threads;
-    struct gb_bench_figure *figure;
+    double seconds[ROUNDS]; /* per sphere and step */
 };
 
 /* P3's powder; the fall is shortened, since only the speed matters. */
@@ -74,11 +74,10 @@ static bool press(struct gb_die_stages *stages, struct gb_bed *bed, struct gb_er
     return how == GB_STEP_DONE;
 }
 
-/* Median time of a step of a row, the punch standing still where it is. */
+/* Median time of a step of a row, while the punch stands still. */
 static bool time_row(struct gb_bed *bed, const struct row *row, double *seconds,
                      struct gb_error *err)
 {
-    double (*const clock_s)(void) = row->threads > 1 ? gb_clock_s : gb_clock_process_s;
     struct gb_params params;
     struct gb_leapfrog integrator;
     double batch[BATCHES];
@@ -91,62 +90,60 @@ static bool time_row(struct gb_bed *bed, const struct row *row, double *seconds,
     gb_leapfrog_init(&integrator, 0.5, 0.0);
     bed->die.punch_velocity = 0.0;
     for (int b = -1; b < BATCHES; b++) { /* the first one warms up */
-        const double start = clock_s();
+        const double start = now_s(row->threads);
         for (int k = 0; k < BATCH; k++) {
             if (!gb_leapfrog_step(&integrator, bed, err)) {
                 return false;
             }
         }
-        batch[b < 0 ? 0 : b] = (clock_s() - start) / BATCH;
+        batch[b < 0 ? 0 : b] = (now_s(row->threads) - start) / BATCH;
     }
-    gsl_sort(batch, 1, BATCHES);
-    *seconds = gsl_stats_median_from_sorted_data(batch, 1, BATCHES) / (double)bed->count;
+    *seconds = gsl_stats_median(batch, 1, BATCHES) / (double)bed->count;
     return true;
 }
 
-static bool time_rows(struct gb_bench_die *bench, struct gb_bed *bed,
-                      struct gb_error *err)
+static bool time_rows(struct gb_bed *bed, struct gb_error *err)
 {
     const int cores = (int)g_get_num_processors();
-    const struct row row[] = {{"hertz", 0.0, 1, &bench->hertz},
-                              {"hertz", 0.0, cores, &bench->hertz_all},
-                              {"hertz", 0.05, 1, &bench->hertz_friction},
-                              {"storakers", 0.0, 1, &bench->storakers},
-                              {"storakers", 0.05, 1, &bench->storakers_friction}};
-    double seconds[G_N_ELEMENTS(row)][GB_BENCH_ROUNDS];
+    struct row row[] = {{"Hertz on one core", "hertz", 0.0, 1, {0}},
+                        {"Hertz on all cores", "hertz", 0.0, cores, {0}},
+                        {"Hertz with friction", "hertz", 0.05, 1, {0}},
+                        {"Storakers", "storakers", 0.0, 1, {0}},
+                        {"Storakers with friction", "storakers", 0.05, 1, {0}}};
     struct gb_contact_counts counts;
     gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
-    bench->coordination = counts.coordination;
-    bench->near = 2.0 * (double)bed->pairs.count / (double)bed->count;
-    for (int round = 0; round < GB_BENCH_ROUNDS; round++) {
+    print_fact("timed at coordination", counts.coordination, "");
+    for (int round = 0; round < ROUNDS; round++) {
         for (size_t r = 0; r < G_N_ELEMENTS(row); r++) {
-            if (!time_row(bed, &row[r], &seconds[r][round], err)) {
+            if (!time_row(bed, &row[r], &row[r].seconds[round], err)) {
                 return false;
             }
         }
     }
     for (size_t r = 0; r < G_N_ELEMENTS(row); r++) {
-        *row[r].figure = gb_bench_figure_of(seconds[r], GB_BENCH_ROUNDS);
+        print_figure(row[r].name, figure_of(row[r].seconds), 1e6,
+                     "us per sphere and step");
     }
     return true;
 }
 
-bool gb_bench_die_run(struct gb_bench_die *bench, struct gb_error *err)
+int main(void)
 {
+    struct gb_error err = {0};
     struct gb_params params;
     struct gb_model model;
     struct gb_bed *bed = NULL;
     struct gb_die_stages *stages = NULL;
-    *bench = (struct gb_bench_die){0};
-    bool done = make_params(&params, "hertz", 0.0, err) &&
-                gb_model_init(&model, &params, err) &&
-                gb_filling_create(&bed, &params, &model, NULL, NULL, err);
-    if (done) {
+    g_set_prgname("time_die");
+    bool good = make_params(&params, "hertz", 0.0, &err) &&
+                gb_model_init(&model, &params, &err) &&
+                gb_filling_create(&bed, &params, &model, NULL, NULL, &err);
+    if (good) {
         const struct gb_bed_law law = gb_filling_compaction_law(&params);
-        done = gb_die_stages_create(&stages, &model.die, &law, err) &&
-               press(stages, bed, err) && time_rows(bench, bed, err);
+        good = gb_die_stages_create(&stages, &model.die, &law, &err) &&
+               press(stages, bed, &err) && time_rows(bed, &err);
     }
     gb_die_stages_destroy(stages);
     gb_bed_destroy(bed);
-    return done;
+    return finish(good, &err);
 }

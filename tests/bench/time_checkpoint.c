@@ -1,16 +1,18 @@
-#include "study/bench/bench_state.h"
-
-#include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics.h>
+/* Times a checkpoint of a pressed packing: how long the engine is blocked, the processor
+ * time of the writing thread, the wall clock until the file stands, and of this the disk.
+ * Usage: time_checkpoint [group.key=value]...
+ * Writes in a temporary folder (TMPDIR) as a run does. */
+#include <stdint.h>
 
 #include <glib.h>
 #include <glib/gstdio.h>
-#include <stdint.h>
+#include <gsl/gsl_statistics.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/read_file.h"
+#include "bench.h"
 #include "io/store.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
@@ -24,13 +26,12 @@ struct timing {
     gsize bytes;
 };
 
-static double median(double *seconds)
+static void print_median(const char *name, double *seconds)
 {
-    gsl_sort(seconds, 1, TIMES);
-    return gsl_stats_median_from_sorted_data(seconds, 1, TIMES);
+    print_fact(name, 1e3 * gsl_stats_median(seconds, 1, TIMES), "ms");
 }
 
-/* The file as it is, put elsewhere: what the disk takes of the time. */
+/* Writes the same bytes to another file: the time of the disk. */
 static bool copy_file(const char *directory, double *seconds, gsize *bytes,
                       struct gb_error *err)
 {
@@ -76,7 +77,7 @@ static bool time_all(struct timing *timing, struct gb_experiment *experiment,
     struct gb_writer *writer = NULL;
     bool good = gb_store_create(&store, folder, params, GB_RUNDIR_KEEP, err) &&
                 gb_writer_create(&writer, store, params, experiment->model, err);
-    /* the first one makes the arrays and is not counted */
+    /* the first one allocates the arrays and is not counted */
     for (int k = -1; good && k < TIMES; k++) {
         good = time_one(timing, k < 0 ? 0 : k, experiment, store, writer, err);
     }
@@ -85,32 +86,37 @@ static bool time_all(struct timing *timing, struct gb_experiment *experiment,
     return good;
 }
 
-bool gb_bench_state_run(struct gb_bench_state *bench, const struct gb_params *params,
-                        const struct gb_world_copy *copy, struct gb_error *err)
+int main(int argc, char **argv)
 {
+    struct gb_error err = {0};
+    struct gb_params params;
+    struct packing packing = {0};
     struct gb_experiment *experiment = NULL;
     struct timing timing = {0};
-    GError *failure = NULL;
-    char *folder = g_dir_make_tmp("greenbody-bench-XXXXXX", &failure);
+    (void)argc;
+    g_set_prgname("time_checkpoint");
+    char *folder = g_dir_make_tmp("greenbody-bench-XXXXXX", NULL);
     if (folder == NULL) {
-        gb_error_set(err, GB_ERR_MACHINE, "%s", failure->message);
-        g_error_free(failure);
-        return false;
+        gb_error_set(&err, GB_ERR_MACHINE, "no temporary folder");
+        return finish(false, &err);
     }
-    const bool good = gb_experiment_create(&experiment, params, NULL, NULL, err) &&
-                      gb_world_copy_restore(experiment->loading->world, copy, err) &&
-                      gb_world_evaluate(experiment->loading->world, err) &&
-                      time_all(&timing, experiment, params, folder, err);
+    const bool good =
+        make_scene(&params, argv + 1, &err) && packing_press(&packing, &params, &err) &&
+        gb_experiment_create(&experiment, &params, NULL, NULL, &err) &&
+        gb_world_copy_restore(experiment->loading->world, packing.copy, &err) &&
+        gb_world_evaluate(experiment->loading->world, &err) &&
+        time_all(&timing, experiment, &params, folder, &err);
     if (good) {
-        *bench = (struct gb_bench_state){.held = median(timing.held),
-                                         .processor = median(timing.processor),
-                                         .written = median(timing.written),
-                                         .disk = median(timing.disk),
-                                         .bytes_per_particle = (double)timing.bytes /
-                                                               (double)params->count};
+        print_fact("checkpoint", (double)timing.bytes / (double)params.count,
+                   "bytes per particle");
+        print_median("engine blocked", timing.held);
+        print_median("processor time of the writer", timing.processor);
+        print_median("time to write", timing.written);
+        print_median("of this the disk", timing.disk);
     }
     gb_experiment_destroy(experiment);
+    packing_finish(&packing);
     (void)g_rmdir(folder);
     g_free(folder);
-    return good;
+    return finish(good, &err);
 }
