@@ -9,7 +9,7 @@
 
 #include "api/arguments.h"
 #include "api/parameters_private.h"
-#include "study/law/law_rows.h"
+#include "study/law/law_table.h"
 
 static const struct gb_law_table_law *law_at(size_t index)
 {
@@ -59,7 +59,7 @@ size_t gb_contact_law_rows(const struct gb_contact_law_request *request)
     }
     /* no memory holds more; the product of rows and columns stays a size_t */
     return request->history == GB_CONTACT_LAW_PATH && request->count < SIZE_MAX >> 16
-               ? gb_law_rows_of_path(request->count)
+               ? gb_law_table_of_path(request->count)
                : 0;
 }
 
@@ -110,7 +110,7 @@ static char *path_of(const struct gb_contact_law_request *request, const char *v
 }
 
 static bool find(const struct gb_contact_law_request *request,
-                 struct gb_law_rows_request *rows, struct gb_error *err)
+                 struct gb_law_table_request *rows, struct gb_error *err)
 {
     GString *names = g_string_new(NULL);
     for (size_t i = 0; law_at(i); i++) {
@@ -163,7 +163,7 @@ static bool check(const struct gb_contact_law_request *request,
 }
 
 /* The points, some at a time, so that no text of all is needed. */
-static bool compute_points(struct gb_law_rows_request *options,
+static bool compute_points(struct gb_law_table_request *options,
                            const struct gb_contact_law_request *request,
                            const struct gb_params *params, struct rows *rows,
                            struct gb_error *err)
@@ -173,7 +173,7 @@ static bool compute_points(struct gb_law_rows_request *options,
     for (size_t i = 0; good && i < request->count; i += AT_A_TIME) {
         options->at = points_of(request, options->law->variable, i,
                                 MIN((size_t)AT_A_TIME, request->count - i));
-        good = gb_law_rows_compute(options, params, take_row, rows, err);
+        good = gb_law_table_compute(options, params, take_row, rows, err);
         g_strfreev(options->at);
     }
     return good;
@@ -183,7 +183,7 @@ bool gb_contact_law_compute(const struct gb_contact_law_request *request,
                             const struct gb_parameters *parameters, double *out,
                             size_t room, struct gb_error *err)
 {
-    struct gb_law_rows_request options = {0};
+    struct gb_law_table_request options = {0};
     struct rows rows = {.out = out, .room = room};
     if (!gb_arguments_given(request, "request", err)) {
         return false;
@@ -206,7 +206,7 @@ bool gb_contact_law_compute(const struct gb_contact_law_request *request,
     if (variable && request->history == GB_CONTACT_LAW_PATH) {
         options.path = path_of(request, variable);
     }
-    const bool good = gb_law_rows_compute(&options, params, take_row, &rows, err);
+    const bool good = gb_law_table_compute(&options, params, take_row, &rows, err);
     g_free(options.path);
     return good;
 }

@@ -40,14 +40,15 @@ bool gb_batch_progress_init(struct gb_batch_progress *batch, int jobs, bool quie
     return true;
 }
 
-size_t gb_batch_progress_workers(const struct gb_batch_progress *batch, int jobs)
+/* Runs at once of this process: `jobs`, or for 0 one per processor of it. */
+static size_t workers_of(const struct gb_batch_progress *batch, int jobs)
 {
     return (size_t)(jobs > 0 ? jobs : gb_launch_cores(&batch->launch));
 }
 
 size_t gb_batch_progress_all_workers(const struct gb_batch_progress *batch, int jobs)
 {
-    return gb_batch_progress_workers(batch, jobs) * (size_t)batch->launch.count;
+    return workers_of(batch, jobs) * (size_t)batch->launch.count;
 }
 
 static bool is_terminal(void)
@@ -162,7 +163,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
                                                     .progress = on_progress,
                                                     .on_wait = on_wait,
                                                     .data = batch};
-    const size_t workers = gb_batch_progress_workers(batch, jobs);
+    const size_t workers = workers_of(batch, jobs);
     gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     begin(batch, ensemble);
     if (batch->output == GB_BATCH_PROGRESS_ALL) {

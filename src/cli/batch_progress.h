@@ -31,8 +31,6 @@ struct gb_batch_progress {
 bool gb_batch_progress_init(struct gb_batch_progress *batch, int jobs, bool quiet,
                             struct gb_error *err);
 
-/* Runs at once of this process: `jobs`, or for 0 one per processor of it. */
-size_t gb_batch_progress_workers(const struct gb_batch_progress *batch, int jobs);
 /* The same for all processes of the command together. */
 size_t gb_batch_progress_all_workers(const struct gb_batch_progress *batch, int jobs);
 

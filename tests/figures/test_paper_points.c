@@ -40,8 +40,8 @@ static size_t add(struct gb_series *series, const char *figure, const char *expe
     const struct gb_figures_row *row = gb_figures_find(figure);
     struct gb_error err = {0};
     size_t drawn = 0;
-    g_assert_true(gb_papers_experiments_params(
-        &gb_papers_experiments_table()[gb_papers_experiments_index(experiment)],
+    g_assert_true(gb_papers_plan_params(
+        &gb_papers_plan_table()[gb_papers_plan_index(experiment)],
         GB_PAPERS_FAST, point, &run.params, &err));
     g_assert_true(change == NULL || gb_params_assign(&run.params, change, &err));
     gb_series_init(series, 1);

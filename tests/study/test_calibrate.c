@@ -9,7 +9,7 @@
 #include <glib.h>
 
 #include "study/calibrate/calibrate.h"
-#include "study/calibrate/calibration_table.h"
+#include "study/calibrate/calibration.h"
 
 /* Calibration on a stand-in for the engine: compaction curves that friction stiffens and
  * adhesion hinders at low pressure, cells that scatter as those of the engine do. */
@@ -357,17 +357,17 @@ static void test_text(void)
     struct gb_error err = {0};
     struct gb_calibration calibration = {0};
     gb_params_init(&params);
-    g_assert_true(gb_free_keys_parse(&calibration.keys, "mu=0.05:0.5", &params, &err));
+    g_assert_true(gb_calibration_keys(&calibration.keys, "mu=0.05:0.5", &params, &err));
     for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
         calibration.result.value[0] = rows[k].value;
         calibration.result.error[0] = rows[k].error;
-        GString *text = gb_calibration_table_text(&calibration);
+        GString *text = gb_calibration_text(&calibration);
         g_test_message("%s", text->str);
         g_assert_true(g_str_has_prefix(text->str, rows[k].text));
         g_assert_null(strstr(text->str, "leave the interval open"));
         g_string_free(text, TRUE);
         calibration.result.high_open[0] = true;
-        text = gb_calibration_table_text(&calibration);
+        text = gb_calibration_text(&calibration);
         g_assert_nonnull(strstr(text->str, "upper limit of the range 0.05 to 0.5"));
         calibration.result.high_open[0] = false;
         g_string_free(text, TRUE);

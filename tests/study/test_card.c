@@ -5,9 +5,8 @@
 #include <gsl/gsl_errno.h>
 
 #include "study/card/card_files.h"
-#include "study/card/card_fit.h"
-#include "study/card/card_misfit.h"
-#include "study/compact/offset_probe.h"
+#include "study/card/card.h"
+#include "study/compact/compact.h"
 
 enum { LEVELS = 3, CELLS = 4 };
 
@@ -17,7 +16,7 @@ static const double bulk = 8e9, shear_modulus = 6e9;
  * of the flow in the proportion 1 : 2, stress constant. */
 static void test_probe(void)
 {
-    struct gb_offset_probe probe = {
+    struct gb_compact_probe probe = {
         .direction = 0.5,
         .elastic = {{{1.0 / bulk, 0.0}, {0.0, 1.0 / (3.0 * shear_modulus)}}},
         .state = g_array_new(FALSE, FALSE, sizeof(struct gb_compact_state))};
@@ -31,13 +30,13 @@ static void test_probe(void)
             .shear = 1e6 * elastic / (3.0 * shear_modulus) + 2e-3 * plastic};
         g_array_append_val(probe.state, state);
     }
-    g_assert_true(gb_offset_probe_point(&probe, 1e-2, 1.0, &point));
+    g_assert_true(gb_compact_probe_point(&probe, 1e-2, 1.0, &point));
     g_assert_cmpfloat_with_epsilon(point.p_pa, 70e6, 1.0);
     g_assert_cmpfloat_with_epsilon(point.q_pa, 10e6, 1.0);
     g_assert_cmpfloat_with_epsilon(point.flow_shear, 5e-3, 1e-9);
     g_assert_cmpfloat_with_epsilon(point.flow_volume, 2.5e-3, 1e-9);
-    g_assert_false(gb_offset_probe_point(&probe, 3e-2, 1.0, &point));
-    gb_offset_probe_finish(&probe);
+    g_assert_false(gb_compact_probe_point(&probe, 3e-2, 1.0, &point));
+    gb_compact_probe_finish(&probe);
 }
 
 static struct gb_cap cap_of(int level)
@@ -96,7 +95,7 @@ static void make_cells(struct gb_card_cell cell[CELLS],
             for (int d = 0; d < options->directions; d++) {
                 struct gb_yield_point point = {.density = options->density[k],
                                                .direction =
-                                                   gb_card_options_direction(options, d),
+                                                   gb_card_direction(options, d),
                                                .replica = c + 1};
                 meet(&cap, 0.5 * gb_cap_end(&cap), point.direction, &point);
                 point.p_pa *= size;

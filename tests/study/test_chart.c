@@ -6,7 +6,6 @@
 #include <glib/gstdio.h>
 
 #include "common/scene.h"
-#include "study/chart/chart_advice.h"
 #include "study/chart/chart_table.h"
 
 static struct gb_params small_scene(void)
@@ -45,8 +44,8 @@ static void test_plan(void)
         }
     }
     for (size_t i = 3; i < plan.settings; i++) { /* cheap ones first */
-        g_assert_cmpfloat(gb_chart_plan_effort(&plan.setting[i - 1]), <=,
-                          gb_chart_plan_effort(&plan.setting[i]));
+        g_assert_cmpfloat(gb_chart_effort(&plan.setting[i - 1]), <=,
+                          gb_chart_effort(&plan.setting[i]));
     }
     gb_chart_plan_finish(&plan);
     plan = plan_of(&params, NULL, 3);
@@ -127,7 +126,7 @@ static void fill_log(struct gb_chart_log *log, size_t setting, double error, dou
         struct gb_error err = {0};
         run.density[0] = made_up(s, error, noise);
         run.coordination[0] = 5.0 + 10.0 * error;
-        g_assert_true(gb_chart_log_add(log, &run, &err));
+        g_assert_true(gb_chart_add(log, &run, &err));
     }
 }
 
@@ -148,7 +147,7 @@ static void test_table(void)
     struct gb_chart_log log;
     struct gb_error err = {0};
     char *directory = fresh_directory();
-    g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
+    g_assert_true(gb_chart_open(&log, directory, &plan, &err));
     fill_known(&log);
     struct gb_chart_table table;
     gb_chart_table_init(&table, &log, NAN);
@@ -173,7 +172,7 @@ static void test_table(void)
     gb_chart_table_init(&table, &log, 1e-5);
     g_assert_null(gb_chart_table_chosen(&table));
     gb_chart_table_finish(&table);
-    gb_chart_log_close(&log);
+    gb_chart_close(&log);
     gb_chart_plan_finish(&plan);
     remove_directory(directory);
 }
@@ -186,7 +185,7 @@ static void test_incomplete(void)
     struct gb_chart_log log;
     struct gb_error err = {0};
     char *directory = fresh_directory();
-    g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
+    g_assert_true(gb_chart_open(&log, directory, &plan, &err));
     fill_log(&log, 0, 0.0, 0.0, 40.0);
     fill_log(&log, 1, 0.0, 0.1, 4.0);
     g_array_index(log.runs, struct gb_chart_run, log.runs->len - 1).failed = true;
@@ -199,7 +198,7 @@ static void test_incomplete(void)
     g_assert_cmpint(table.row[2].seeds, ==, SEEDS - 1);
     g_assert_cmpint(table.row[3].seeds, ==, 0);
     gb_chart_table_finish(&table);
-    gb_chart_log_close(&log);
+    gb_chart_close(&log);
     gb_chart_plan_finish(&plan);
     remove_directory(directory);
 }
@@ -213,36 +212,36 @@ static void test_log(void)
     struct gb_chart_log log, again;
     struct gb_error err = {0};
     char *directory = fresh_directory();
-    g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
+    g_assert_true(gb_chart_open(&log, directory, &plan, &err));
     fill_known(&log);
-    g_assert_false(gb_chart_log_open(&again, directory, &plan, &err)); /* under way */
+    g_assert_false(gb_chart_open(&again, directory, &plan, &err)); /* under way */
     g_assert_nonnull(strstr(err.text, "under way"));
-    gb_chart_log_close(&again);
-    gb_chart_log_close(&log);
-    g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
+    gb_chart_close(&again);
+    gb_chart_close(&log);
+    g_assert_true(gb_chart_open(&log, directory, &plan, &err));
     g_assert_cmpuint(log.runs->len, ==, 4 * SEEDS);
     for (size_t i = 0; i < plan.settings; i++) {
         const struct gb_chart_run *run =
-            gb_chart_log_find(&log, &plan.setting[i], plan.params.seed + 2);
+            gb_chart_find(&log, &plan.setting[i], plan.params.seed + 2);
         g_assert_nonnull(run);
         g_assert_cmpfloat(run->cpu_s, >, 1.0);
     }
-    g_assert_null(gb_chart_log_find(&log, &plan.setting[0], plan.params.seed + SEEDS));
-    gb_chart_log_close(&log);
+    g_assert_null(gb_chart_find(&log, &plan.setting[0], plan.params.seed + SEEDS));
+    gb_chart_close(&log);
     gb_chart_plan_finish(&plan);
 
     struct gb_params other = params;
     other.mu = 0.3;
     plan = plan_of(&other, vary_tolerance, SEEDS);
-    g_assert_false(gb_chart_log_open(&log, directory, &plan, &err));
+    g_assert_false(gb_chart_open(&log, directory, &plan, &err));
     g_assert_nonnull(strstr(err.text, "contact.mu"));
-    gb_chart_log_close(&log);
+    gb_chart_close(&log);
     char *alien = g_build_filename(directory, "runs.csv", NULL);
     g_remove(alien); /* what is left is no chart */
     g_free(alien);
-    g_assert_false(gb_chart_log_open(&log, directory, &plan, &err));
+    g_assert_false(gb_chart_open(&log, directory, &plan, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    gb_chart_log_close(&log);
+    gb_chart_close(&log);
     gb_chart_plan_finish(&plan);
     remove_directory(directory);
 }
@@ -288,7 +287,7 @@ static void test_advice(void)
     struct gb_chart_log log;
     struct gb_error err = {0};
     char *directory = fresh_directory();
-    g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
+    g_assert_true(gb_chart_open(&log, directory, &plan, &err));
     for (size_t i = 0; i < plan.settings; i++) {
         fill_log(&log, i, 0.0, 0.0, 3.0);
     }
@@ -297,7 +296,7 @@ static void test_advice(void)
     gb_chart_table_init(&table, &log, NAN);
     for (int i = 0; i < 2; i++) {
         g_assert_true(
-            gb_chart_advice_init(&advice[i], &table, &plan, i ? 0.0005 : 0.001, &err));
+            gb_chart_table_advise(&advice[i], &table, &plan, i ? 0.0005 : 0.001, &err));
         g_assert_cmpint(advice[i].sizes, ==, 2);
     }
     g_assert_cmpfloat(advice[0].size[1].cells, ==, ceil(16.0 * 20.0 / 3.0));
@@ -306,7 +305,7 @@ static void test_advice(void)
     g_assert_false(advice[0].size[0].large_enough);
     g_assert_true(advice[0].size[1].large_enough);
     gb_chart_table_finish(&table);
-    gb_chart_log_close(&log);
+    gb_chart_close(&log);
     gb_chart_plan_finish(&plan);
     remove_directory(directory);
 }

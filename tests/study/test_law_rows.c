@@ -6,7 +6,7 @@
 
 #include "common/scene.h"
 #include "scene/model.h"
-#include "study/law/law_rows.h"
+#include "study/law/law_table.h"
 
 enum { ROWS_MAX = 1024 };
 
@@ -27,13 +27,13 @@ static bool take(const double *value, int columns, void *data, struct gb_error *
     return true;
 }
 
-static bool compute(struct rows *rows, const struct gb_law_rows_request *request,
+static bool compute(struct rows *rows, const struct gb_law_table_request *request,
                     struct gb_error *err)
 {
     struct gb_params params = scene_params("contact.bridge_length=0.01 d", NULL);
     params.normal = request->law->normal;
     *rows = (struct rows){.limit = rows->limit > 0 ? rows->limit : ROWS_MAX};
-    return gb_law_rows_compute(request, &params, take, rows, err);
+    return gb_law_table_compute(request, &params, take, rows, err);
 }
 
 /* The columns of law rod are those of gb_law_rod_force at evenly spaced overlaps. */
@@ -44,7 +44,7 @@ static void test_range(void)
     struct gb_error err = {0};
     struct gb_model model;
     char range[] = "h=0:0.1:11";
-    const struct gb_law_rows_request request = {.law = gb_law_table_find("rod"),
+    const struct gb_law_table_request request = {.law = gb_law_table_find("rod"),
                                                 .range = range};
     g_assert_true(gb_model_init(&model, &params, &err));
     g_assert_true(compute(&rows, &request, &err));
@@ -63,7 +63,7 @@ static void test_path(void)
     struct rows rows = {0};
     struct gb_error err = {0};
     char path[] = "0,0.03,0.025";
-    const struct gb_law_rows_request request = {.law = gb_law_table_find("normal"),
+    const struct gb_law_table_request request = {.law = gb_law_table_find("normal"),
                                                 .path = path};
     g_assert_true(compute(&rows, &request, &err));
     g_assert_cmpint(rows.count, ==, 1 + 2 * 200);
@@ -81,7 +81,7 @@ static void test_table(void)
         const char *variable = laws[i].pair ? "h" : laws[i].variable;
         char *range =
             laws[i].variable != NULL ? g_strdup_printf("%s=0.01:0.02:3", variable) : NULL;
-        const struct gb_law_rows_request request = {
+        const struct gb_law_table_request request = {
             .law = &laws[i],
             .lattice = gb_law_table_find_lattice("sc"),
             .range = range,
@@ -110,7 +110,7 @@ static void test_errors(void)
     struct rows rows = {.limit = 3};
     struct gb_error err = {0};
     char range[] = "h=0:0.1:11", beyond[] = "h=0:2:11";
-    struct gb_law_rows_request request = {.law = gb_law_table_find("rod"),
+    struct gb_law_table_request request = {.law = gb_law_table_find("rod"),
                                           .range = range};
     g_assert_false(compute(&rows, &request, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);

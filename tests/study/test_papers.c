@@ -6,8 +6,7 @@
 #include <glib/gstdio.h>
 
 #include "study/papers/papers.h"
-#include "study/papers/papers_measures.h"
-#include "study/papers/papers_printed.h"
+#include "study/papers/papers_comparisons.h"
 
 static struct gb_papers_numbers numbers;
 
@@ -165,13 +164,13 @@ static void test_refused_files(void)
 
 static void test_experiments(void)
 {
-    const struct gb_papers_experiment *row = gb_papers_experiments_table();
-    g_assert_cmpuint(gb_papers_experiments_count(), <=, GB_PAPERS_EXPERIMENTS_MOST);
+    const struct gb_papers_experiment *row = gb_papers_plan_table();
+    g_assert_cmpuint(gb_papers_plan_count(), <=, GB_PAPERS_EXPERIMENTS_MOST);
     for (; row->name != NULL; row++) {
         for (int size = 0; size <= GB_PAPERS_SIZES; size++) {
             struct gb_params params;
             struct gb_error err = {0};
-            if (!gb_papers_experiments_params(row, (enum gb_papers_size)size, 0, &params,
+            if (!gb_papers_plan_params(row, (enum gb_papers_size)size, 0, &params,
                                               &err) ||
                 !gb_params_check(&params, &err)) {
                 g_error("%s: %s", row->name, err.text);
@@ -184,10 +183,10 @@ static size_t points_of(const char *experiment)
 {
     struct gb_axes axes;
     struct gb_error err = {0};
-    const size_t index = gb_papers_experiments_index(experiment);
-    g_assert_cmpuint(index, <, gb_papers_experiments_count());
+    const size_t index = gb_papers_plan_index(experiment);
+    g_assert_cmpuint(index, <, gb_papers_plan_count());
     g_assert_true(
-        gb_papers_experiments_axes(&gb_papers_experiments_table()[index], &axes, &err));
+        gb_papers_plan_axes(&gb_papers_plan_table()[index], &axes, &err));
     const size_t points = gb_axes_points(&axes);
     gb_axes_finish(&axes);
     return points;
@@ -210,8 +209,8 @@ static void test_comparisons(void)
             g_assert_true(g_str_has_prefix(row->experiment[e], printed->paper));
         }
         g_assert_true((row->read != NULL) ==
-                      (row->measure == gb_papers_measures_mean ||
-                       row->measure == gb_papers_measures_difference));
+                      (row->measure == gb_papers_comparisons_mean ||
+                       row->measure == gb_papers_comparisons_difference));
     }
 }
 
@@ -274,7 +273,7 @@ static void test_jackknife(void)
     static const double shared[CELLS] = {0.1, 0.7, 0.2, 0.4};
     static const double extra[CELLS] = {0.01, 0.02, 0.03, 0.04};
     struct gb_papers_data data = {0};
-    const size_t index = gb_papers_experiments_index("P1-fig5");
+    const size_t index = gb_papers_plan_index("P1-fig5");
     struct gb_papers_cells *cells = &data.experiment[index];
     struct gb_runset_run run[2 * CELLS] = {0};
     size_t point[2 * CELLS], cell[2 * CELLS];
@@ -288,14 +287,14 @@ static void test_jackknife(void)
                                       .cell = cell,
                                       .most = CELLS};
     struct gb_papers_comparison row = {.experiment = {"P1-fig5"},
-                                       .measure = gb_papers_measures_mean,
+                                       .measure = gb_papers_comparisons_mean,
                                        .read = number_of,
                                        .scale = 10.0};
     double value, error;
     g_assert_cmpuint(gb_papers_comparisons_value(&row, &data, &value, &error), ==, CELLS);
     g_assert_cmpfloat_with_epsilon(value, 3.5, 1e-12);
     g_assert_cmpfloat_with_epsilon(error, 10.0 * sqrt(0.21 / 3.0 / CELLS), 1e-12);
-    row.measure = gb_papers_measures_difference;
+    row.measure = gb_papers_comparisons_difference;
     row.point = 1;
     gb_papers_comparisons_value(&row, &data, &value, &error);
     g_assert_cmpfloat_with_epsilon(value, 0.25, 1e-12);

@@ -23,7 +23,7 @@ static struct gb_params scene_of(const struct gb_quantity_study *study)
 static const struct gb_quantity *find(const char *name)
 {
     struct gb_error err = {0};
-    const struct gb_quantity *row = gb_quantities_find(name, &err);
+    const struct gb_quantity *row = gb_quantity_chart_find(name, &err);
     if (row == NULL) {
         g_error("%s", err.text);
     }
@@ -57,26 +57,26 @@ static void check_axis(const struct gb_quantity_study *study, int a)
 static void test_table(void)
 {
     int rows = 0;
-    for (const struct gb_quantity *row = gb_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
         struct gb_error err = {0};
         const struct gb_params params = scene_of(row->study);
         g_assert_true(find(row->name) == row); /* names are unique */
         g_assert_true(row->unit[0] != '\0' && row->meaning[0] != '\0');
         g_assert_cmpint(row->index, <, GB_QUANTITY_VALUES);
-        for (const struct gb_quantity *other = gb_quantities(); other < row; other++) {
+        for (const struct gb_quantity *other = gb_quantity_chart_quantities(); other < row; other++) {
             g_assert_true(other->study != row->study || other->index != row->index);
         }
         g_assert_true(row->study->check(&params, &err));
         g_assert_cmpint(row->study->cells, >, 1);
-        g_assert_cmpint(gb_quantities_axes(row->study), >, 0);
-        for (int a = 0; a < gb_quantities_axes(row->study); a++) {
+        g_assert_cmpint(gb_quantity_chart_axes(row->study), >, 0);
+        for (int a = 0; a < gb_quantity_chart_axes(row->study); a++) {
             check_axis(row->study, a);
         }
         rows++;
     }
     g_assert_cmpint(rows, >, 9);
     struct gb_error err = {0};
-    g_assert_null(gb_quantities_find("strength", &err));
+    g_assert_null(gb_quantity_chart_find("strength", &err));
     g_assert_nonnull(strstr(err.text, "expected E, nu"));
 }
 
@@ -170,7 +170,7 @@ static void test_scenes(void)
     struct gb_error err = {0};
     const struct gb_params cell = scene_of(find("E")->study);
     const struct gb_params die = scene_of(find("residual_stress")->study);
-    for (const struct gb_quantity *row = gb_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
         const bool of_die = strcmp(row->study->name, "die") == 0;
         g_assert_false(row->study->check(of_die ? &cell : &die, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);

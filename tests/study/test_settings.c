@@ -10,9 +10,9 @@
 #include "common/scene.h"
 #include "common/tree.h"
 #include "measure/elastic.h"
-#include "study/card/card_cell.h"
-#include "study/strength/strength_study.h"
-#include "study/yield/yield_study.h"
+#include "study/card/card.h"
+#include "study/strength/strength.h"
+#include "study/yield/yield.h"
 
 static const double tighter = 0.2;
 
@@ -61,7 +61,7 @@ static void press(struct gb_compact *inside, const struct gb_params *preset, int
     params.tolerance_scale = GB_TOLERANCE_CONTACT;
     g_strlcpy(params.path, "isotropic to density 0.99", sizeof params.path);
     if (!gb_compact_press(&loose, &params, &at_once, NULL, &err) ||
-        gb_compact_follow(&loose, gb_card_options_paths[options->path].leg,
+        gb_compact_follow(&loose, gb_card_paths[options->path].leg,
                           params.strain_step, &walk, &top, &err) != GB_COMPACT_TAKEN) {
         g_error("%s", err.text);
     }
@@ -223,7 +223,7 @@ static const struct gb_yield_surface *yield(struct gb_yield_study *study, double
     options.replicas = g_test_slow() ? 6 : 3;
     options.directions = g_test_slow() ? 12 : 8;
     options.tolerance *= factor;
-    if (!gb_yield_study_run(study, &params, &options, directory, 0, NULL, &err)) {
+    if (!gb_yield_run(study, &params, &options, directory, 0, NULL, &err)) {
         g_error("%s", err.text);
     }
     g_assert_cmpuint(study->failed, ==, 0);
@@ -246,8 +246,8 @@ static void test_yield(void)
         assert_converged(gb_yield_surface_rows[list[i]].name, &now->quantity[list[i]],
                          tight->quantity[list[i]].value);
     }
-    gb_yield_study_finish(&study[0]);
-    gb_yield_study_finish(&study[1]);
+    gb_yield_finish(&study[0]);
+    gb_yield_finish(&study[1]);
 }
 
 /* Fractions of the bridges that are lost at the peak of each test. */
@@ -264,7 +264,7 @@ static void strength(double lost[GB_STRENGTH_TESTS], double factor)
     options.replicas = g_test_slow() ? 8 : 4;
     options.strain_most = g_test_slow() ? options.strain_most : 0.04;
     options.tolerance *= factor;
-    if (!gb_strength_study_run(&study, &params, &options, directory, 0, NULL, &err)) {
+    if (!gb_strength_run(&study, &params, &options, directory, 0, NULL, &err)) {
         g_error("%s", err.text);
     }
     g_assert_cmpuint(study.failed, ==, 0);
@@ -273,10 +273,10 @@ static void strength(double lost[GB_STRENGTH_TESTS], double factor)
             &g_array_index(study.result, struct gb_strength_result, (guint)t);
         lost[t] = result->broken_at_peak;
         g_test_message("%s, tolerance %g: %.2f +- %.2f %% of the bridges lost",
-                       gb_strength_options_tests[t].name, options.tolerance,
+                       gb_strength_tests[t].name, options.tolerance,
                        100.0 * lost[t], 100.0 * result->broken_at_peak_error);
     }
-    gb_strength_study_finish(&study);
+    gb_strength_finish(&study);
     g_free(directory);
 }
 

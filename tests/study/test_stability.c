@@ -5,8 +5,7 @@
 
 #include "base/alloc.h"
 #include "solve/relax/relax_fire.h"
-#include "study/stability/stability_run.h"
-#include "study/stability/stability_scene.h"
+#include "study/stability/stability.h"
 
 static void test_sides(void)
 {

@@ -7,8 +7,8 @@
 
 #include "common/scene.h"
 #include "common/tree.h"
-#include "study/compact/offset_probe.h"
-#include "study/yield/yield_files.h"
+#include "study/compact/compact.h"
+#include "study/yield/yield.h"
 
 static char *folder;
 
@@ -23,11 +23,11 @@ static void test_leg(void)
     char leg[GB_LEG_TEXT];
     struct gb_path path;
     struct gb_error err = {0};
-    gb_offset_probe_leg(0.0, 1.0, 0.03, leg, sizeof leg);
+    gb_compact_probe_leg(0.0, 1.0, 0.03, leg, sizeof leg);
     g_assert_true(gb_path_parse(&path, leg, 3, &err));
     g_assert_cmpint(path.leg[0].leading, ==, 2);
     g_assert_cmpfloat_with_epsilon(path.leg[0].component[0].value, -0.5, 1e-9);
-    gb_offset_probe_leg(-1.0, -1.0 / 6.0 + 1.0, 0.03, leg, sizeof leg);
+    gb_compact_probe_leg(-1.0, -1.0 / 6.0 + 1.0, 0.03, leg, sizeof leg);
     g_assert_true(gb_path_parse(&path, leg, 3, &err));
     g_assert_cmpint(path.leg[0].leading, ==, 0);
     g_assert_cmpfloat(path.leg[0].end[0].value, <, 0.0);
@@ -44,7 +44,7 @@ static char *study_text(const char *name, int jobs)
     options.marks = (struct gb_keep_points){.count = 1, .point = {{true, 0.5}}};
     options.replicas = 2;
     options.directions = 8;
-    if (!gb_yield_study_run(&study, &params, &options, directory, jobs, NULL, &err)) {
+    if (!gb_yield_run(&study, &params, &options, directory, jobs, NULL, &err)) {
         g_error("%s", err.text);
     }
     g_assert_cmpuint(study.failed, ==, 0);
@@ -52,9 +52,9 @@ static char *study_text(const char *name, int jobs)
         gb_yield_study_surface(&study, 0, GB_YIELD_OFFSET_CHOSEN);
     g_assert_cmpfloat(surface->quantity[GB_YIELD_CENTRE_P].value, >, 0.0);
     g_assert_cmpfloat(surface->quantity[GB_YIELD_HALF_Q].value, >, 0.0);
-    GString *points = gb_yield_files_points(&study, "");
-    g_string_append(points, gb_yield_files_fit(&study, "")->str);
-    gb_yield_study_finish(&study);
+    GString *points = gb_yield_points(&study, "");
+    g_string_append(points, gb_yield_fit(&study, "")->str);
+    gb_yield_finish(&study);
     g_free(directory);
     return g_string_free(points, FALSE);
 }
@@ -79,14 +79,14 @@ static void test_refused(void)
     struct gb_params params = scene();
     gb_yield_options_init(&options);
     options.directions = 10;
-    g_assert_false(gb_yield_study_run(&study, &params, &options, folder, 1, NULL, &err));
+    g_assert_false(gb_yield_run(&study, &params, &options, folder, 1, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    gb_yield_study_finish(&study);
+    gb_yield_finish(&study);
     gb_yield_options_init(&options);
     params.kind = GB_KIND_DYNAMIC;
-    g_assert_false(gb_yield_study_run(&study, &params, &options, folder, 1, NULL, &err));
+    g_assert_false(gb_yield_run(&study, &params, &options, folder, 1, NULL, &err));
     g_assert_nonnull(strstr(err.text, "quasistatic"));
-    gb_yield_study_finish(&study);
+    gb_yield_finish(&study);
 }
 
 int main(int argc, char **argv)

@@ -6,8 +6,8 @@
 
 #include "common/tree.h"
 #include "io/preset.h"
-#include "study/strength/strength_study.h"
-#include "study/yield/yield_study.h"
+#include "study/strength/strength.h"
+#include "study/yield/yield.h"
 
 enum { CELLS = 16 };
 
@@ -72,12 +72,12 @@ static void test_yield(const void *data)
     options.marks = (struct gb_keep_points){.count = 1, .point = {{true, 0.5}}};
     options.replicas = CELLS;
     options.inside = 0.1;
-    if (!gb_yield_study_run(&study, &params, &options, directory, 0, NULL, &err)) {
+    if (!gb_yield_run(&study, &params, &options, directory, 0, NULL, &err)) {
         g_error("%s", err.text);
     }
     g_assert_cmpuint(study.failed, ==, 0);
     assert_statements(gb_yield_study_surface(&study, 0, GB_YIELD_OFFSET_CHOSEN));
-    gb_yield_study_finish(&study);
+    gb_yield_finish(&study);
     g_free(directory);
 }
 
@@ -96,12 +96,12 @@ static void measure(const char *name, const char *more,
     options.replicas = CELLS;
     g_assert_true(gb_params_assign(&params, "loading.geometry=uniaxial", &err));
     g_assert_true(*more == '\0' || gb_params_assign(&params, more, &err));
-    if (!gb_strength_study_run(&study, &params, &options, directory, 0, NULL, &err)) {
+    if (!gb_strength_run(&study, &params, &options, directory, 0, NULL, &err)) {
         g_error("%s", err.text);
     }
     g_assert_cmpuint(study.failed, ==, 0);
     memcpy(result, study.result->data, GB_STRENGTH_TESTS * sizeof *result);
-    gb_strength_study_finish(&study);
+    gb_strength_finish(&study);
     g_free(directory);
     g_free(sub);
 }
@@ -115,7 +115,7 @@ static void assert_stronger(const struct gb_strength_result *strong,
         const double error =
             hypot(strong[t].strength_error_pa, factor[t] * weak[t].strength_error_pa);
         g_test_message("%s: %.4g +- %.2g MPa against %.4g +- %.2g MPa",
-                       gb_strength_options_tests[t].name, 1e-6 * strong[t].strength_pa,
+                       gb_strength_tests[t].name, 1e-6 * strong[t].strength_pa,
                        1e-6 * strong[t].strength_error_pa, 1e-6 * weak[t].strength_pa,
                        1e-6 * weak[t].strength_error_pa);
         g_assert_cmpfloat(weak[t].strength_pa, >, 0.0);

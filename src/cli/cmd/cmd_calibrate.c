@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
-#include "study/calibrate/calibration_table.h"
+#include "study/calibrate/calibration.h"
 
 enum { REPLICAS_MIN = 3, REPLICAS_MAX = 1000 };
 
@@ -45,7 +45,7 @@ static void print_round(const struct gb_calibration *calibration,
                      stage == GB_CALIBRATE_COARSE ? "small cells" : "full cells", round);
     for (size_t k = 0; k < calibration->keys.count; k++) {
         char name[96];
-        gb_calibration_name(&calibration->keys.key[k], name, sizeof name);
+        gb_calibration_key_name(&calibration->keys.key[k], name, sizeof name);
         gb_visible_print(stderr, "%s %s = %.4g within %.2g", k > 0 ? "," : "", name,
                          best[k], half_width[k]);
     }
@@ -90,7 +90,7 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
     calibration->work = work;
     calibration->progress = print_round;
     calibration->data = command;
-    return gb_free_keys_parse(&calibration->keys, request->free, params, err) &&
+    return gb_calibration_keys(&calibration->keys, request->free, params, err) &&
            read_lab(&calibration->lab, request, params, err) &&
            gb_ensemble_make_directory(request->out, err);
 }
@@ -114,9 +114,9 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
         return false;
     }
     const bool written =
-        gb_calibration_table_write(&command->calibration, command->preset, err);
+        gb_calibration_write(&command->calibration, command->preset, err);
     gb_lock_release(&lock);
-    GString *text = gb_calibration_table_text(&command->calibration);
+    GString *text = gb_calibration_text(&command->calibration);
     gb_visible_put(stdout, first ? text->str : "");
     g_string_free(text, TRUE);
     return written;

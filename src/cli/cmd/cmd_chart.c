@@ -15,7 +15,7 @@
 #include "cli/signals.h"
 #include "io/preset.h"
 #include "run/cost.h"
-#include "study/chart/chart_text.h"
+#include "study/chart/chart_table.h"
 #include "study/chart/quantity_chart.h"
 
 /* Of a mean density, by default. */
@@ -101,7 +101,7 @@ static bool prepare(struct chart *chart, char **words, char **sets, struct gb_er
                               (const char *const *)chart->vary,
                               (const char *const *)chart->reference, chart->pressures,
                               chart->seeds, err) &&
-           gb_chart_log_open(&chart->log, chart->directory, &chart->plan, err);
+           gb_chart_open(&chart->log, chart->directory, &chart->plan, err);
 }
 
 static bool write_table(const struct chart *chart, struct gb_error *err)
@@ -117,7 +117,7 @@ static bool write_table(const struct chart *chart, struct gb_error *err)
         "loading only",
         chart->plan.params.title, chart->command);
     GString *text = gb_chart_table_csv(&table, &chart->plan, comment);
-    const bool good = gb_chart_log_keep(&chart->log, "chart.csv", text, err);
+    const bool good = gb_chart_keep(&chart->log, "chart.csv", text, err);
     g_string_free(text, TRUE);
     g_free(comment);
     gb_chart_table_finish(&table);
@@ -128,7 +128,7 @@ static bool write_table(const struct chart *chart, struct gb_error *err)
 static bool measure(struct chart *chart, const struct gb_chart_setting *setting,
                     uint64_t seed, struct gb_error *err)
 {
-    if (gb_chart_log_find(&chart->log, setting, seed)) {
+    if (gb_chart_find(&chart->log, setting, seed)) {
         return true;
     }
     if (chart->missing > 0) { /* the budget is spent */
@@ -143,7 +143,7 @@ static bool measure(struct chart *chart, const struct gb_chart_setting *setting,
         chart->missing++;
         return true;
     }
-    return done && gb_chart_log_add(&chart->log, &run, err);
+    return done && gb_chart_add(&chart->log, &run, err);
 }
 
 static bool measure_all(struct chart *chart, struct gb_error *err)
@@ -211,11 +211,11 @@ static bool conclude(struct chart *chart, struct gb_error *err)
     gb_chart_table_init(&table, &chart->log,
                         chart->allowed > 0.0 ? chart->allowed : (double)NAN);
     bool good =
-        gb_chart_advice_init(&advice, &table, &chart->plan, chart->standard_error, err);
+        gb_chart_table_advise(&advice, &table, &chart->plan, chart->standard_error, err);
     if (good) {
-        print_text(gb_chart_text_table(&table, &chart->plan));
+        print_text(gb_chart_table_text(&table, &chart->plan));
         print_text(gb_chart_plot(&table, &chart->plan));
-        print_text(gb_chart_text_results(&table, &chart->plan, &advice));
+        print_text(gb_chart_table_results(&table, &chart->plan, &advice));
         if (chart->missing > 0) {
             gb_visible_print(
                 stdout,
@@ -233,7 +233,7 @@ static bool conclude(struct chart *chart, struct gb_error *err)
 static void list_quantities(void)
 {
     gb_visible_put(stdout, "quantity            unit   study     meaning\n");
-    for (const struct gb_quantity *row = gb_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
         gb_visible_print(stdout, "%-18s  %-5s  %-8s  %s\n", row->name, row->unit,
                          row->study->name, row->meaning);
     }
@@ -307,7 +307,7 @@ static bool write_quantities(const struct chart *chart, const struct gb_quantity
         "half of the 95 %% interval of the default with %d cells; cost: processor time "
         "over the default's; settings in SI",
         chart->quantities.params.title, chart->command, wanted->study->cells);
-    for (const struct gb_quantity *row = gb_quantities(); good && row->name != NULL;
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); good && row->name != NULL;
          row++) {
         struct gb_quantity_table table;
         if (row->study != wanted->study) {
@@ -333,7 +333,7 @@ static bool write_quantities(const struct chart *chart, const struct gb_quantity
 static bool perform_quantity(struct chart *chart, char **words, char **sets,
                              struct gb_error *err)
 {
-    const struct gb_quantity *wanted = gb_quantities_find(chart->quantity, err);
+    const struct gb_quantity *wanted = gb_quantity_chart_find(chart->quantity, err);
     const struct gb_cells_callbacks callbacks = {quantity_cancelled, quantity_progress,
                                                  quantity_waits, chart};
     char cost[64];
@@ -399,7 +399,7 @@ static int perform(struct chart *chart, char **words, char **sets)
 static void finish(struct chart *chart)
 {
     gb_quantity_chart_finish(&chart->quantities);
-    gb_chart_log_close(&chart->log);
+    gb_chart_close(&chart->log);
     gb_chart_plan_finish(&chart->plan);
     gb_preset_destroy(chart->preset);
     g_free(chart->directory);

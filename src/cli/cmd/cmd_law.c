@@ -7,11 +7,11 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "io/material.h"
-#include "study/law/law_rows.h"
+#include "study/law/law_table.h"
 
 /* The options of the command line. */
 struct request {
-    struct gb_law_rows_request rows;
+    struct gb_law_table_request rows;
     char *vary;
 };
 
@@ -65,7 +65,7 @@ static bool print_scenes(const struct request *request, const struct gb_params *
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
         if (!set_varied(&scene, variation, i, err) ||
-            !gb_law_rows_check(&request->rows, &scene, err)) {
+            !gb_law_table_check(&request->rows, &scene, err)) {
             return false;
         }
     }
@@ -73,7 +73,7 @@ static bool print_scenes(const struct request *request, const struct gb_params *
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
         if (!set_varied(&scene, variation, i, err) ||
-            !gb_law_rows_compute(&request->rows, &scene, print_row, variation->values[i],
+            !gb_law_table_compute(&request->rows, &scene, print_row, variation->values[i],
                                  err)) {
             return false;
         }
@@ -98,11 +98,11 @@ static bool print_law(const struct request *request, const struct gb_params *par
     if (request->vary) {
         return print_varied(request, params, err);
     }
-    if (!gb_law_rows_check(&request->rows, params, err)) {
+    if (!gb_law_table_check(&request->rows, params, err)) {
         return false;
     }
     gb_visible_print(stdout, "%s\n", request->rows.law->header);
-    return gb_law_rows_compute(&request->rows, params, print_row, NULL, err);
+    return gb_law_table_compute(&request->rows, params, print_row, NULL, err);
 }
 
 static bool find_law(const char *name, const struct gb_law_table_law **out,

@@ -10,7 +10,7 @@
 #include "cli/options.h"
 #include "figures/papers/papers_figures.h"
 #include "run/cost.h"
-#include "study/papers/papers_page.h"
+#include "study/papers/papers.h"
 
 enum { COUNT_MIN = 50, COUNT_MAX = 1000000, CELLS_MAX = 1000 };
 
@@ -114,9 +114,9 @@ static bool write_results(const struct command *command, const char *line,
         gb_papers_evaluate(&results, &command->numbers, &command->plan, err) &&
         gb_papers_figures_draw(&command->plan, &figures, &count, err) &&
         write_text(command, "runs.csv", gb_papers_plan_runs(&command->plan), err) &&
-        write_text(command, "papers.csv", gb_papers_page_table(&results), err) &&
+        write_text(command, "papers.csv", gb_papers_table(&results), err) &&
         write_text(command, "papers.md",
-                   gb_papers_page_text(&results, &command->numbers, &command->plan,
+                   gb_papers_text(&results, &command->numbers, &command->plan,
                                        figures, count, line),
                    err);
     gb_papers_figures_finish(figures, count);
@@ -169,7 +169,7 @@ static char *describe_experiments(void)
 {
     GString *text =
         g_string_new("Experiments (preset, cells at each point: full, --fast):\n");
-    for (const struct gb_papers_experiment *row = gb_papers_experiments_table();
+    for (const struct gb_papers_experiment *row = gb_papers_plan_table();
          row->name != NULL; row++) {
         g_string_append_printf(text, "  %-13s %s (%s: %d, %d)\n", row->name, row->doc,
                                row->preset, row->extent[GB_PAPERS_FULL].cells,

@@ -13,7 +13,7 @@
 #include "io/preset.h"
 #include "scene/loading_kind.h"
 #include "scene/tolerances.h"
-#include "study/stability/stability_run.h"
+#include "study/stability/stability.h"
 
 static void add_number(GString *text, double value)
 {
@@ -115,7 +115,7 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
                      "%-8s  %7.4g  %7.4f  %7.2g  %8.4g  %8.4g  %8.4g  %6.2f  %s%s\n",
                      row->method, 1e-6 * row->p_pa, row->density, row->damping,
                      row->theory, row->measured, row->used, margin,
-                     gb_stability_run_stable(row) ? "stable" : "unstable",
+                     gb_stability_stable(row) ? "stable" : "unstable",
                      row->in_use ? ", in use" : "");
     fflush(stdout);
     if (row->in_use && !(margin >= scene->least)) {
@@ -127,7 +127,7 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         gb_visible_line(stderr, "%d of %d states: %s, p %.4g MPa", scene->rows,
                         scene->rows_most, row->method, 1e-6 * row->p_pa);
     }
-    gb_stability_run_add(scene->csv, row);
+    gb_stability_add(scene->csv, row);
     return write_csv(scene->csv, scene->directory, err);
 }
 
@@ -175,7 +175,7 @@ static bool perform_scene(struct scene *scene, char **words, char **sets,
         char *comment =
             g_strdup_printf("# greenbody " GB_VERSION "\n# preset: %s\n# %s\n",
                             params->title, scene->command);
-        scene->csv = gb_stability_run_csv(comment);
+        scene->csv = gb_stability_table(comment);
         g_free(comment);
         int first = 0;
         scene->rows_most = gb_stability_methods(params, &first) *

@@ -9,7 +9,7 @@
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "study/compact/study_text.h"
-#include "study/strength/strength_study.h"
+#include "study/strength/strength.h"
 
 static void print_summary(const struct gb_strength_study *study)
 {
@@ -30,7 +30,7 @@ static void print_summary(const struct gb_strength_study *study)
         gb_visible_print(
             stdout, "%7g %-3s  %-11s  %17s  %8s  %s\n",
             r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
-            r->mark.by_density ? "" : "MPa", gb_strength_options_tests[r->test].name,
+            r->mark.by_density ? "" : "MPa", gb_strength_tests[r->test].name,
             strength, gb_number_shown("%.3g", 100.0 * r->strain, strain), weibull->str);
         g_string_free(weibull, TRUE);
     }
@@ -40,7 +40,7 @@ static bool conclude(struct gb_compact_options *common,
                      const struct gb_strength_study *study, struct gb_error *err)
 {
     if (!gb_compact_options_keep_preset(common, err) ||
-        !gb_strength_study_write(study, common->directory,
+        !gb_strength_write(study, common->directory,
                                  gb_preset_params(common->preset)->title, common->command,
                                  err)) {
         return false;
@@ -59,10 +59,10 @@ static bool perform(struct gb_compact_options *common, char **words, char **sets
     options.replicas = common->replicas;
     const bool good =
         gb_compact_options_begin(common, words, sets, &options.marks, err) &&
-        gb_strength_study_run(&study, gb_preset_params(common->preset), &options,
+        gb_strength_run(&study, gb_preset_params(common->preset), &options,
                               common->directory, common->jobs, &common->callbacks, err) &&
         conclude(common, &study, err);
-    gb_strength_study_finish(&study);
+    gb_strength_finish(&study);
     return good;
 }
 

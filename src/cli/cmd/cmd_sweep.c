@@ -11,7 +11,7 @@
 #include "many/sweep/param_sweep.h"
 #include "many/sweep/sweep_shortfall.h"
 #include "run/cost.h"
-#include "study/sensitivity/sensitivity_text.h"
+#include "study/sensitivity/sensitivity.h"
 
 enum { REPLICAS_MAX = 100000 };
 
@@ -153,10 +153,10 @@ static bool write_sensitivities(struct command *command, struct gb_error *err)
     struct gb_sensitivity sensitivity = {0};
     bool good = gb_sensitivity_init(&sensitivity, &command->sweep, err);
     if (good) {
-        GString *text = gb_sensitivity_text_lines(&sensitivity, &command->sweep);
+        GString *text = gb_sensitivity_lines(&sensitivity, &command->sweep);
         good = gb_param_sweep_put(
             command->request->out, "sensitivity.csv",
-            gb_sensitivity_text_table(&sensitivity, &command->sweep), err);
+            gb_sensitivity_table(&sensitivity, &command->sweep), err);
         gb_visible_put(stdout, text->str);
         g_string_free(text, TRUE);
     }

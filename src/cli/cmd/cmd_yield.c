@@ -8,7 +8,7 @@
 #include "cli/compact_options.h"
 #include "cli/options.h"
 #include "cli/signals.h"
-#include "study/yield/yield_files.h"
+#include "study/yield/yield.h"
 
 /* The options, in per cent where the user gives per cent. */
 struct request {
@@ -49,7 +49,7 @@ static bool conclude(struct request *request, const struct gb_yield_study *study
 {
     struct gb_compact_options *common = &request->common;
     if (!gb_compact_options_keep_preset(common, err) ||
-        !gb_yield_files_write(study, common->directory,
+        !gb_yield_write(study, common->directory,
                               gb_preset_params(common->preset)->title, common->command,
                               err)) {
         return false;
@@ -68,11 +68,11 @@ static bool perform(struct request *request, char **words, char **sets,
     bool good =
         gb_compact_options_begin(&request->common, words, sets, &request->yield.marks,
                                  err) &&
-        gb_yield_study_run(&study, gb_preset_params(request->common.preset),
+        gb_yield_run(&study, gb_preset_params(request->common.preset),
                            &request->yield, request->common.directory,
                            request->common.jobs, &request->common.callbacks, err) &&
         conclude(request, &study, err);
-    gb_yield_study_finish(&study);
+    gb_yield_finish(&study);
     return good;
 }
 

@@ -69,7 +69,7 @@ static void add_parameters(struct gb_page *page, const struct gb_card_study *stu
     GPtrArray *cells = g_ptr_array_new_with_free_func(g_free);
     heads[0] = "density";
     for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-        const struct gb_card_quantity_row *row = &gb_card_study_rows[n];
+        const struct gb_card_quantity_row *row = &gb_card_rows[n];
         heads[n + 1] = made[n] = row->unit[0] != '\0'
                                      ? g_strdup_printf("%s (%s)", row->symbol, row->unit)
                                      : g_strdup(row->symbol);
@@ -78,7 +78,7 @@ static void add_parameters(struct gb_page *page, const struct gb_card_study *stu
         g_ptr_array_add(cells, g_strdup_printf("%.4f", study->card.density[k]));
         for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
             g_ptr_array_add(cells,
-                            cell(&study->quantity[k][n], gb_card_study_rows[n].factor));
+                            cell(&study->quantity[k][n], gb_card_rows[n].factor));
         }
     }
     const struct gb_page_table_content content = {

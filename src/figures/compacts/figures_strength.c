@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/strength/strength_options.h"
+#include "study/strength/strength.h"
 
 /* Strength of compacts against the pressure of pressing, from the directories of
  * `greenbody strength`; against the density after unloading where a compact was pressed to
@@ -85,7 +85,7 @@ static void draw_test(struct gb_series *series, const struct tables *tables,
 {
     const struct gb_table *table = tables->table[k];
     const int style = (int)k * GB_STRENGTH_TESTS + test;
-    const char *name = gb_strength_options_tests[test].name;
+    const char *name = gb_strength_tests[test].name;
     char *label = label_of(tables, words, k, name);
     double *x = gb_series_column(series, "%s_%d", names[along], style + 1);
     double *y = gb_series_column(series, "%s_%d_MPa", name, (int)k + 1);

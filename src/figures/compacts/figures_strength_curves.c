@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "measure/fit/average.h"
 #include "scene/field/keep_points.h"
-#include "study/strength/strength_options.h"
+#include "study/strength/strength.h"
 
 /* Stress against strain of the tests of `greenbody strength`: each cell, and the mean as
  * far as all cells go. */
@@ -142,7 +142,7 @@ static bool draw_test(struct gb_series *series, const struct chosen *chosen, int
 {
     double cell[CELLS];
     struct gb_average_curve curves[CELLS];
-    const char *test = gb_strength_options_tests[style].name;
+    const char *test = gb_strength_tests[style].name;
     const size_t count =
         gb_compact_table_distinct(chosen->table, chosen->column[CELL],
                                   chosen->column[chosen->by], chosen->value, cell, CELLS);

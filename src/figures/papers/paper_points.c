@@ -6,7 +6,7 @@
 #include "figures/plotting.h"
 #include "many/key_difference.h"
 #include "study/papers/papers_comparisons.h"
-#include "study/papers/papers_printed.h"
+#include "study/papers/papers.h"
 
 /* Keys that change how well a scene is computed and how much of it. */
 static const char *const accepted[] = {"particles.count",     "structure.base",
@@ -27,8 +27,8 @@ static int find_scene(const struct gb_papers_comparison *comparison,
     struct gb_params params;
     int found = -1;
     if (comparison->experiment[0] == NULL ||
-        !gb_papers_experiments_params(
-            &gb_papers_experiments_table()[gb_papers_experiments_index(
+        !gb_papers_plan_params(
+            &gb_papers_plan_table()[gb_papers_plan_index(
                 comparison->experiment[0])],
             GB_PAPERS_SIZES, comparison->point, &params, NULL)) {
         return -1;

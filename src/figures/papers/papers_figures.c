@@ -106,7 +106,7 @@ static const char first_run[] = "/scene_seed-1";
 static guint list_runs(const struct gb_papers_plan *plan, const char *name,
                        GPtrArray *list)
 {
-    const size_t experiment = gb_papers_experiments_index(name);
+    const size_t experiment = gb_papers_plan_index(name);
     const guint before = list->len;
     for (size_t k = 0; k < plan->count; k++) {
         const struct gb_ensemble_run *run = &plan->ensemble.run[k];
@@ -140,7 +140,7 @@ static GPtrArray *runs_of(const struct figure *row, const struct gb_papers_plan 
 static bool is_selected(const struct figure *row, const struct gb_papers_plan *plan)
 {
     return row->experiment[0] != NULL
-               ? plan->selected[gb_papers_experiments_index(row->experiment[0])]
+               ? plan->selected[gb_papers_plan_index(row->experiment[0])]
                : gb_papers_selected_paper(row->file, plan);
 }
 

@@ -1,7 +1,7 @@
 #ifndef GB_FIGURES_PAPERS_PAPERS_FIGURES_H
 #define GB_FIGURES_PAPERS_PAPERS_FIGURES_H
 
-#include "study/papers/papers_page.h"
+#include "study/papers/papers.h"
 
 /* Figures of the papers over the runs of a plan, with the printed numbers. */
 

@@ -1,14 +1,187 @@
+/* A calibration in a directory: which keys are free, the runs at each point, and its tables. */
 #include "study/calibrate/calibration.h"
 
+#include <glib.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "base/file.h"
+#include "base/number.h"
+#include "base/units.h"
+#include "greenbody/params.h"
+#include "io/preset.h"
+#include "many/ensemble.h"
+#include "many/key_difference.h"
+#include "many/lab/labdata.h"
 #include "many/reading.h"
+#include "many/runset.h"
+#include "study/calibrate/calibrate.h"
+
+/* --- free keys ------------------------------------------------------------------------ */
+
+enum { DIGITS = 10 };
+
+/* Without a range the fit begins between the value over this and the value times it. */
+static const double first_factor = 2.0;
+
+/* The number of a field in params. */
+static double number_of(const struct gb_params *params, const struct gb_field *field,
+                        bool *relative)
+{
+    const void *at = (const char *)params + field->offset;
+    *relative = false;
+    if (field->type == GB_FIELD_RELATIVE) {
+        const struct gb_relative *both = at;
+        *relative = both->relative;
+        return both->value;
+    }
+    return *(const double *)at;
+}
+
+/* One end of a range; takes the unit behind the whole when it has none. */
+static bool read_end(struct gb_free_key *key, const char *text, const char *unit,
+                     double *value, struct gb_error *err)
+{
+    struct gb_params params;
+    const char *end = text;
+    double number = 0.0;
+    gb_params_init(&params);
+    const bool bare = gb_units_number(text, &end, &number) && *end == '\0';
+    char *whole = g_strconcat(text, bare && *unit ? " " : "", bare ? unit : "", NULL);
+    const bool good = gb_params_set(&params, key->field, whole, err);
+    g_free(whole);
+    *value = number_of(&params, key->field, &key->relative);
+    return good;
+}
+
+static bool read_range(struct gb_free_key *key, const char *text, struct gb_error *err)
+{
+    char **ends = g_strsplit(text, ":", 3);
+    bool good = g_strv_length(ends) == 2;
+    if (good) {
+        const char *unit = "";
+        double number = 0.0;
+        g_strstrip(ends[0]);
+        if (gb_units_number(g_strstrip(ends[1]), &unit, &number)) {
+            unit += strspn(unit, " \t");
+        }
+        bool relative = false;
+        good = read_end(key, ends[0], unit, &key->low, err);
+        relative = key->relative;
+        good = good && read_end(key, ends[1], unit, &key->high, err);
+        good = good && relative == key->relative && key->low < key->high;
+    }
+    g_strfreev(ends);
+    key->from = key->low;
+    key->to = key->high;
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "--free %s.%s=%.80s: accepted two values that the key "
+                                "takes, LOW:HIGH",
+                                key->field->group, key->field->key, text);
+}
+
+static bool take_around(struct gb_free_key *key, const struct gb_params *params,
+                        struct gb_error *err)
+{
+    const double value = number_of(params, key->field, &key->relative);
+    if (!(value > 0.0)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--free %s.%s: the preset has no value above 0 to begin with; "
+            "accepted %s.%s=LOW:HIGH",
+            key->field->group, key->field->key, key->field->group, key->field->key);
+    }
+    key->low = fmax(key->field->min, value / 100.0);
+    key->high = fmin(key->field->max, value * 100.0);
+    key->from = fmax(key->low, value / first_factor);
+    key->to = fmin(key->high, value * first_factor);
+    return true;
+}
+
+static bool find_field(const struct gb_free_keys *keys, struct gb_free_key *key,
+                       const char *name, struct gb_error *err)
+{
+    key->field = gb_params_find_name(name, err);
+    if (key->field == NULL) {
+        return false;
+    }
+    const bool fit =
+        !gb_key_difference_bookkeeping(key->field) &&
+        (key->field->type == GB_FIELD_NUMBER || key->field->type == GB_FIELD_RELATIVE);
+    bool twice = false;
+    for (size_t i = 0; i < keys->count; i++) {
+        twice = twice || keys->key[i].field == key->field;
+    }
+    return (fit && !twice) ||
+           gb_error_set(
+               err, GB_ERR_INPUT,
+               "--free %.80s: accepted keys that are numbers, as contact.mu, each "
+               "once; see greenbody params",
+               name);
+}
+
+bool gb_calibration_keys(struct gb_free_keys *keys, const char *text,
+                         const struct gb_params *params, struct gb_error *err)
+{
+    char **parts = g_strsplit(text, ",", GB_CALIBRATE_FREE + 2);
+    bool good = parts[0] != NULL;
+    keys->count = 0;
+    if (!good || g_strv_length(parts) > GB_CALIBRATE_FREE) {
+        good =
+            gb_error_set(err, GB_ERR_INPUT, "--free %.80s: must be between 1 and %d keys",
+                         text, GB_CALIBRATE_FREE);
+    }
+    for (size_t i = 0; good && parts[i] != NULL; i++) {
+        struct gb_free_key *key = &keys->key[keys->count];
+        char **sides = g_strsplit(g_strstrip(parts[i]), "=", 2);
+        *key = (struct gb_free_key){0};
+        good = sides[0] != NULL
+                   ? find_field(keys, key, g_strstrip(sides[0]), err)
+                   : gb_error_set(err, GB_ERR_INPUT, "--free: a key is empty");
+        good = good && (sides[1] ? read_range(key, sides[1], err)
+                                 : take_around(key, params, err));
+        keys->count += good;
+        g_strfreev(sides);
+    }
+    g_strfreev(parts);
+    return good;
+}
+
+/* The value of a key as a preset would write it, ten digits.  Returns buffer. */
+static char *free_keys_text(const struct gb_free_key *key, double value, char *buffer,
+                            size_t size)
+{
+    if (key->relative) {
+        g_snprintf(buffer, (gulong)size, "%.*g %s", DIGITS, value, key->field->relative);
+        return buffer;
+    }
+    return gb_units_format_short(value, (enum gb_dimension)key->field->dimension, DIGITS,
+                                 buffer, size);
+}
+
+/* Gives params the values. */
+static bool calibration_apply(const struct gb_free_keys *keys, const double *value,
+                              struct gb_params *params, struct gb_error *err)
+{
+    for (size_t k = 0; k < keys->count; k++) {
+        char text[96];
+        free_keys_text(&keys->key[k], value[k], text, sizeof text);
+        if (!gb_params_set(params, keys->key[k].field, text, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- runs and fit --------------------------------------------------------------------- */
 
 /* Cells of the coarse stage: this fraction of the particles, but not fewer. */
 enum { COARSE_FRACTION = 8, COARSE_MIN = 200 };
 
-const char *gb_calibration_name(const struct gb_free_key *key, char *buffer, size_t size)
+const char *gb_calibration_key_name(const struct gb_free_key *key, char *buffer,
+                                    size_t size)
 {
     g_snprintf(buffer, (gulong)size, "%s.%s", key->field->group, key->field->key);
     return buffer;
@@ -57,7 +230,7 @@ static bool fill(const struct gb_calibration *calibration, const double *paramet
         run->params = calibration->lab.scene[scene];
         run->params.seed += run->replica;
         run->params.threads = run->params.threads > 0 ? run->params.threads : 1;
-        if (!gb_free_keys_apply(&calibration->keys, at, &run->params, err) ||
+        if (!calibration_apply(&calibration->keys, at, &run->params, err) ||
             (stage == GB_CALIBRATE_COARSE && !make_coarse(&run->params, err)) ||
             !gb_params_check(&run->params, err)) {
             return false;
@@ -116,7 +289,7 @@ static void add_rounds_header(const struct gb_calibration *calibration)
     char name[96];
     g_string_append(text, "cells,round");
     for (size_t k = 0; k < calibration->keys.count; k++) {
-        gb_calibration_name(&calibration->keys.key[k], name, sizeof name);
+        gb_calibration_key_name(&calibration->keys.key[k], name, sizeof name);
         g_string_append_printf(text, ",%s,within_%s", name, name);
     }
     g_string_append_c(text, '\n');
@@ -192,4 +365,220 @@ void gb_calibration_finish(struct gb_calibration *calibration)
         g_string_free(calibration->rounds, TRUE);
         calibration->rounds = NULL;
     }
+}
+
+/* --- tables and text ------------------------------------------------------------------ */
+
+enum { NAME_MAX_BYTES = 96 };
+
+static const char no_influence[] = ": the data do not depend on it";
+
+static const char *name_of(const struct gb_calibration *calibration, size_t k,
+                           char *buffer)
+{
+    return gb_calibration_key_name(&calibration->keys.key[k], buffer, NAME_MAX_BYTES);
+}
+
+/* calibration.csv: a row per parameter. */
+static GString *parameter_table(const struct gb_calibration *calibration)
+{
+    const struct gb_calibrate_result *result = &calibration->result;
+    const size_t n = calibration->keys.count;
+    char name[NAME_MAX_BYTES];
+    GString *text = g_string_new(
+        "# best fit, standard error and 95 % interval; SI, or the "
+        "multiple that the preset gives; open (1): the interval ends at that "
+        "limit of the range\nkey,unit,value,error,low_95,high_95");
+    for (size_t k = 0; k < n; k++) {
+        g_string_append_printf(text, ",correlation_%s", name_of(calibration, k, name));
+    }
+    g_string_append(text, ",low_open,high_open");
+    for (size_t k = 0; k < n; k++) {
+        const struct gb_free_key *key = &calibration->keys.key[k];
+        g_string_append_printf(
+            text, "\n%s,%s,%.8g,%.8g,%.8g,%.8g", name_of(calibration, k, name),
+            key->relative ? key->field->relative : "SI", result->value[k],
+            result->error[k], result->low[k], result->high[k]);
+        for (size_t l = 0; l < n; l++) {
+            g_string_append_printf(text, ",%.4f", result->correlation[k][l]);
+        }
+        g_string_append_printf(text, ",%d,%d", result->low_open[k], result->high_open[k]);
+    }
+    g_string_append_c(text, '\n');
+    return text;
+}
+
+/* fit.csv: measured values beside those simulated with the best fit. */
+static GString *fit_table(const struct gb_calibration *calibration)
+{
+    const struct gb_labdata *lab = &calibration->lab;
+    GString *text = g_string_new("scene,branch,p_MPa,measured,measured_error,simulated,"
+                                 "se_simulated,quantity,weight\n");
+    for (size_t i = 0; i < lab->count; i++) {
+        const struct gb_labdata_row *row = &lab->row[i];
+        g_string_append_printf(text, "%zu,%s,%.12g,%.12g,", row->scene + 1,
+                               row->unloaded ? "unload" : "load", row->pressure_pa / 1e6,
+                               lab->value[i]);
+        if (lab->error != NULL) {
+            g_string_append_printf(text, "%.12g", lab->error[i]);
+        }
+        g_string_append_printf(
+            text, ",%.8g,%.3g,%s,%.12g\n", calibration->result.fitted[i],
+            calibration->result.fitted_error[i], gb_lab_quantity_rows[row->quantity].name,
+            lab->weight != NULL ? lab->weight[i] : 1.0);
+    }
+    return text;
+}
+
+/* Root mean square of the residuals of each quantity. */
+static void add_residuals(GString *text, const struct gb_calibration *calibration)
+{
+    const struct gb_labdata *lab = &calibration->lab;
+    const char *between = "residuals: rms";
+    for (int q = 0; q < GB_LAB_QUANTITIES; q++) {
+        double squares = 0.0;
+        size_t count = 0;
+        for (size_t i = 0; i < lab->count; i++) {
+            const double off = calibration->result.fitted[i] - lab->value[i];
+            const bool is_own = lab->row[i].quantity == (enum gb_lab_quantity)q;
+            squares += is_own ? off * off : 0.0;
+            count += is_own;
+        }
+        if (count > 0) {
+            g_string_append_printf(text, "%s %.2g in %s", between,
+                                   sqrt(squares / (double)count),
+                                   gb_lab_quantity_rows[q].label);
+            between = ",";
+        }
+    }
+}
+
+static bool write_table(const struct gb_calibration *calibration, const char *name,
+                        GString *text, struct gb_error *err)
+{
+    char *path = g_build_filename(calibration->directory, name, NULL);
+    const bool good = gb_file_replace(path, text->str, text->len, err);
+    g_free(path);
+    g_string_free(text, TRUE);
+    return good;
+}
+
+static const char not_converged[] = "the fit has not converged";
+
+bool gb_calibration_warns(const char *line)
+{
+    return line[0] == ' ' || g_str_has_prefix(line, not_converged) ||
+           g_str_has_suffix(line, no_influence);
+}
+
+bool gb_calibration_write(const struct gb_calibration *calibration,
+                          struct gb_preset *preset, struct gb_error *err)
+{
+    struct gb_params *params = gb_preset_params(preset);
+    if (!calibration_apply(&calibration->keys, calibration->result.value, params, err)) {
+        return false;
+    }
+    char *path = g_build_filename(calibration->directory, "calibrated.ini", NULL);
+    const bool saved = gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, err);
+    g_free(path);
+    return saved && write_table(calibration, "fit.csv", fit_table(calibration), err) &&
+           write_table(calibration, GB_CALIBRATION_TABLE_TEXT,
+                       gb_calibration_text(calibration), err) &&
+           write_table(calibration, "calibration.csv", parameter_table(calibration), err);
+}
+
+static const char *unit_of(const struct gb_free_key *key)
+{
+    if (key->relative) {
+        return key->field->relative;
+    }
+    return key->field->dimension != GB_DIM_NONE ? "(SI)" : "";
+}
+
+/* The value to the decimal place of its error; where the error is the larger one that
+ * would be zero, outside of the range of most keys. */
+static char *write_value(double value, double error, char number[GB_NUMBER_ERROR_MAX])
+{
+    if (error > fabs(value)) {
+        g_snprintf(number, GB_NUMBER_ERROR_MAX, "%.2g +- %.2g", value, error);
+        return number;
+    }
+    return gb_number_error(value, error, 2, " +- ", number);
+}
+
+static void add_parameter(GString *text, const struct gb_calibration *calibration,
+                          size_t k)
+{
+    const struct gb_calibrate_result *result = &calibration->result;
+    const struct gb_free_key *key = &calibration->keys.key[k];
+    const char *unit = unit_of(key);
+    char name[NAME_MAX_BYTES];
+    name_of(calibration, k, name);
+    if (isinf(result->error[k])) {
+        g_string_append_printf(text, "%s%s\n", name, no_influence);
+        return;
+    }
+    char number[GB_NUMBER_ERROR_MAX];
+    g_string_append_printf(text, "%s = %s, 95 %%: %.4g to %.4g%s%s\n", name,
+                           write_value(result->value[k], result->error[k], number),
+                           result->low[k], result->high[k], *unit ? " " : "", unit);
+    if (result->low_open[k] || result->high_open[k]) {
+        const char *end = result->low_open[k] ? "lower limit" : "upper limit";
+        g_string_append_printf(text,
+                               "  the data leave the interval open: it ends at the %s of "
+                               "the range %.4g to %.4g\n",
+                               result->low_open[k] && result->high_open[k] ? "limits"
+                                                                           : end,
+                               key->low, key->high);
+    }
+    if (result->at_limit[k]) {
+        g_string_append_printf(text,
+                               "  at the limit of its range %.4g to %.4g: the best value "
+                               "may lie beyond\n",
+                               key->low, key->high);
+    }
+}
+
+static void add_correlation(GString *text, const struct gb_calibration *calibration,
+                            size_t i, size_t j)
+{
+    const struct gb_calibrate_result *result = &calibration->result;
+    char first[NAME_MAX_BYTES], second[NAME_MAX_BYTES];
+    name_of(calibration, i, first);
+    name_of(calibration, j, second);
+    g_string_append_printf(text, "correlation of %s and %s: %.2f\n", first, second,
+                           result->correlation[i][j]);
+    if (gb_calibrate_confounded(result, i, j)) {
+        g_string_append_printf(text,
+                               "  the data cannot separate %s and %s: fix one of them, "
+                               "or add data that depend on them differently\n",
+                               first, second);
+    }
+}
+
+GString *gb_calibration_text(const struct gb_calibration *calibration)
+{
+    const struct gb_calibrate_result *result = &calibration->result;
+    const size_t n = calibration->keys.count;
+    GString *text = g_string_new(NULL);
+    for (size_t k = 0; k < n; k++) {
+        add_parameter(text, calibration, k);
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i + 1; j < n; j++) {
+            add_correlation(text, calibration, i, j);
+        }
+    }
+    add_residuals(text, calibration);
+    if (isfinite(result->chi_squared) && result->degrees > 0) {
+        g_string_append_printf(text, ", chi-squared %.3g for %zu degrees of freedom",
+                               result->chi_squared, result->degrees);
+    }
+    g_string_append_printf(text, "\n%zu cells simulated, %zu of them failed\n",
+                           result->simulated, result->failed);
+    if (!result->converged) {
+        g_string_append_printf(text, "%s within its rounds: intervals may be too wide\n",
+                               not_converged);
+    }
+    return text;
 }

@@ -71,7 +71,7 @@ GString *gb_card_files_card(const struct gb_card_study *study, const char *comme
     GString *text = begin_with_misses(study, comment, "#");
     g_string_append(text, "density,pressed_MPa");
     for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-        const char *name = gb_card_study_rows[n].name;
+        const char *name = gb_card_rows[n].name;
         g_string_append_printf(text, ",%s,%s_low,%s_high", name, name, name);
     }
     g_string_append(text, ",transition,rms_MPa\n");
@@ -79,7 +79,7 @@ GString *gb_card_files_card(const struct gb_card_study *study, const char *comme
         g_string_append_printf(text, "%.6g,%.6g", study->card.density[k],
                                study->card.pressed_pa[k] / 1e6);
         for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-            append_value(text, &study->quantity[k][n], gb_card_study_rows[n].factor);
+            append_value(text, &study->quantity[k][n], gb_card_rows[n].factor);
         }
         g_string_append_printf(text, ",%g,%.4g\n", study->options.transition,
                                study->card.rms[k] / 1e6);

@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-#include "study/card/card_study.h"
+#include "study/card/card.h"
 
 /* The tables of a card; stresses in MPa, angles in degrees, moduli in GPa. */
 

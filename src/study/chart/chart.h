@@ -1,14 +1,13 @@
 #ifndef GB_STUDY_CHART_CHART_H
 #define GB_STUDY_CHART_CHART_H
 
+#include <glib.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "greenbody/params.h"
 #include "greenbody/status.h"
-
-/* One cell simulated with one setting of the numerics: a measurement of `greenbody chart`.
- */
 
 enum { GB_CHART_PRESSURES = 4 };
 
@@ -28,9 +27,12 @@ struct gb_chart_setting {
  */
 bool gb_chart_setting_of(struct gb_chart_setting *setting, const struct gb_params *params,
                          struct gb_error *err);
+
 /* Gives params the setting; with another count the cell keeps its shape. */
 void gb_chart_apply(struct gb_params *params, const struct gb_chart_setting *setting);
+
 bool gb_chart_same(const struct gb_chart_setting *a, const struct gb_chart_setting *b);
+
 /* "fire, step 0.1 %, tolerance 0.02, cutoff 1.37 d, single precision, 1000 particles".
  * Returns buffer. */
 char *gb_chart_describe(const struct gb_chart_setting *setting, char *buffer,
@@ -62,7 +64,61 @@ bool gb_chart_press(struct gb_chart_run *run, const struct gb_params *scene,
                     bool (*cancelled)(void *data, double cpu_s), void *data,
                     struct gb_error *err);
 
-/* CPU time of this thread. */
-double gb_chart_cpu_s(void);
+/* The settings of a chart, in the order of their simulation. */
+struct gb_chart_plan {
+    struct gb_params params;          /* the scene */
+    struct gb_chart_setting *setting; /* [0] is the reference, [1] the preset's own */
+    size_t settings;
+    double pressure_pa[GB_CHART_PRESSURES]; /* ascending */
+    int pressures;
+    int seeds; /* params.seed, params.seed + 1, ... */
+};
+
+/* Plans the chart of a scene.
+ *
+ * vary       NULL-terminated "group.key=a,b,c" (loading.step, without parts;
+ * numerics.relaxer, tolerance, cutoff, time_step, step_error, particles.count): all
+ * combinations, other keys as in the preset.  NULL: a plan by kind of scene: strain steps x
+ * tolerances of each fast relaxer, a few cutoffs and cell sizes, P1's relaxer twice.
+ * reference  NULL-terminated "group.key=value" that replace values of the reference
+ * pressures  "100 MPa; 1 GPa", or NULL: those of unloading, and the final one
+ * Errors: GB_ERR_INPUT. */
+bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *params,
+                        const char *const *vary, const char *const *reference,
+                        const char *pressures, int seeds, struct gb_error *err);
+
+void gb_chart_plan_finish(struct gb_chart_plan *plan); /* zeroed is fine */
+
+/* Rough relative cost of a run, by which the settings are sorted. */
+double gb_chart_effort(const struct gb_chart_setting *setting);
+
+/* The directory of a chart: preset.ini (the scene), runs.csv (one row per simulated
+ * cell, so that an interrupted chart can be continued) and chart.csv. */
+struct gb_chart_log {
+    char *directory;
+    GArray *runs; /* of struct gb_chart_run */
+    const struct gb_chart_plan *plan;
+    int lock;
+};
+
+/* Makes the directory, or continues the chart in it.  The plan must outlive the log.
+ * Errors: GB_ERR_INPUT for the chart of another scene or other pressures, for a directory
+ * with other files, and for a chart under way; GB_ERR_MACHINE. */
+bool gb_chart_open(struct gb_chart_log *log, const char *directory,
+                   const struct gb_chart_plan *plan, struct gb_error *err);
+void gb_chart_close(struct gb_chart_log *log); /* zeroed is fine */
+
+/* The result of a cell, or NULL. */
+const struct gb_chart_run *gb_chart_find(const struct gb_chart_log *log,
+                                         const struct gb_chart_setting *setting,
+                                         uint64_t seed);
+
+/* Adds a cell and writes runs.csv. */
+bool gb_chart_add(struct gb_chart_log *log, const struct gb_chart_run *run,
+                  struct gb_error *err);
+
+/* Writes text as a file of the directory. */
+bool gb_chart_keep(const struct gb_chart_log *log, const char *name, const GString *text,
+                   struct gb_error *err);
 
 #endif

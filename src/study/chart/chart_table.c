@@ -1,9 +1,27 @@
+/* What a chart says: error against cost, the recommended setting, and the cells that a
+ * standard error needs. */
 #include "study/chart/chart_table.h"
 
+#include <glib.h>
 #include <gsl/gsl_statistics.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "base/alloc.h"
+#include "base/number.h"
 #include "measure/fit/average.h"
+#include "measure/structure.h"
+#include "pack/cell/particles.h"
+#include "pack/structure/initial_structure.h"
+#include "scene/model.h"
+#include "study/chart/chart.h"
+
+/* --- errors against cost -------------------------------------------------------------- */
 
 /* An error below this many standard errors is noise. */
 static const double noise_limit = 2.0;
@@ -21,9 +39,9 @@ static void gather(struct pairs *pairs, const struct gb_chart_log *log,
     pairs->reference = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_run));
     for (int s = 0; s < plan->seeds; s++) {
         const uint64_t seed = plan->params.seed + (uint64_t)s;
-        const struct gb_chart_run *own = gb_chart_log_find(log, setting, seed);
+        const struct gb_chart_run *own = gb_chart_find(log, setting, seed);
         const struct gb_chart_run *reference =
-            gb_chart_log_find(log, &plan->setting[0], seed);
+            gb_chart_find(log, &plan->setting[0], seed);
         if (own && reference) {
             g_array_append_vals(pairs->own, own, 1);
             g_array_append_vals(pairs->reference, reference, 1);
@@ -274,5 +292,254 @@ GString *gb_chart_table_csv(const struct gb_chart_table *table,
             add_row(text, &table->row[i], i == 0, plan->pressures);
         }
     }
+    return text;
+}
+
+/* --- size and number of cells --------------------------------------------------------- */
+
+/* A g(r) whose ripple is below this counts as 1.  At density 0.24 the ripple is 0.02 from
+ * 2.6 to 3.6 d, and 0.004 from 3.5 to 4.5 d, which is mostly noise. */
+static const double flat = 0.01;
+static const double bin_width = 0.05;
+enum { STRUCTURES = 8 };
+
+/* Adds g(r) up to half the shortest edge of one initial structure. */
+static bool add_g(const struct gb_model *model, double half, int bins, double *sum,
+                  struct gb_error *err)
+{
+    struct gb_cell cell;
+    gb_particles_cell(model, &cell);
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
+    double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
+    const bool done = position && g &&
+                      gb_initial_structure_fill(model, NULL, NULL, position, err) &&
+                      gb_structure_rdf(&cell, model->count, position, half, bins, g, err);
+    for (int k = 0; k < bins && done; k++) {
+        sum[k] += g[k];
+    }
+    gb_alloc_free(position);
+    gb_alloc_free(g);
+    return done;
+}
+
+/* Mean g(r) over the first initial structures. */
+static bool measure_g(struct gb_chart_size *size, const struct gb_chart_plan *plan,
+                      const struct gb_chart_setting *setting, struct gb_error *err)
+{
+    struct gb_params params = plan->params;
+    struct gb_model model;
+    struct gb_cell cell;
+    gb_chart_apply(&params, setting);
+    if (!gb_model_init(&model, &params, err)) {
+        return false;
+    }
+    gb_particles_cell(&model, &cell);
+    size->half_edge = 0.5 * gb_cell_shortest(&cell);
+    const int bins = (int)ceil(size->half_edge / bin_width);
+    const int seeds = plan->seeds < STRUCTURES ? plan->seeds : STRUCTURES;
+    double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
+    bool done = g != NULL;
+    for (int s = 0; s < seeds && done; s++) {
+        model.seed.value = plan->params.seed + (uint64_t)s;
+        done = add_g(&model, size->half_edge, bins, g, err);
+    }
+    for (int k = 0; k < bins && done; k++) {
+        g[k] /= seeds;
+    }
+    if (done) {
+        size->g_end = gb_structure_rdf_end(model.dimension, size->half_edge, bins, g,
+                                           &size->ripple);
+        size->large_enough = size->ripple < flat;
+    }
+    gb_alloc_free(g);
+    return done;
+}
+
+/* The standard error decreases with the square root of the number of cells. */
+static double cells_for(const struct gb_chart_size *size, int pressures,
+                        double standard_error)
+{
+    double most = 0.0;
+    for (int k = 0; k < pressures; k++) {
+        const double ratio = size->scatter[k] / standard_error;
+        most = isfinite(ratio) ? fmax(most, ceil(ratio * ratio)) : most;
+    }
+    return most > 0.0 ? most : (double)NAN;
+}
+
+static bool differs_in_size_only(const struct gb_chart_setting *a,
+                                 const struct gb_chart_setting *b)
+{
+    struct gb_chart_setting same = *a;
+    same.count = b->count;
+    return gb_chart_same(&same, b);
+}
+
+static int by_count(const void *a, const void *b)
+{
+    const struct gb_chart_size *x = a, *y = b;
+    return (x->count > y->count) - (x->count < y->count);
+}
+
+bool gb_chart_table_advise(struct gb_chart_advice *advice,
+                           const struct gb_chart_table *table,
+                           const struct gb_chart_plan *plan, double standard_error,
+                           struct gb_error *err)
+{
+    *advice = (struct gb_chart_advice){.standard_error = standard_error};
+    const struct gb_chart_setting *own = &plan->setting[1];
+    for (size_t i = 1; i < table->rows && advice->sizes < GB_CHART_SIZES; i++) {
+        const struct gb_chart_row *row = &table->row[i];
+        if (row->seeds < 2 || !differs_in_size_only(&row->setting, own)) {
+            continue;
+        }
+        struct gb_chart_size *size = &advice->size[advice->sizes++];
+        *size = (struct gb_chart_size){.count = row->setting.count, .cpu_s = row->cpu_s};
+        /* pooled over many rows for the preset's size, from one row for another */
+        memcpy(size->scatter, i == 1 ? table->scatter : row->scatter,
+               sizeof size->scatter);
+        size->cells = cells_for(size, plan->pressures, standard_error);
+        if (!measure_g(size, plan, &row->setting, err)) {
+            return false;
+        }
+    }
+    qsort(advice->size, (size_t)advice->sizes, sizeof advice->size[0], by_count);
+    return true;
+}
+
+/* --- text ----------------------------------------------------------------------------- */
+
+enum { DESCRIPTION = 160 };
+
+static void add_pressure_heads(GString *text, const struct gb_chart_plan *plan)
+{
+    for (int k = 0; k < plan->pressures; k++) {
+        char head[32];
+        snprintf(head, sizeof head, "at %.4g MPa", plan->pressure_pa[k] / 1e6);
+        g_string_append_printf(text, "  %-16s", head);
+    }
+    g_string_append_c(text, '\n');
+}
+
+/* Properties of a row, one letter each. */
+static void add_marks(GString *text, const struct gb_chart_table *table, size_t i)
+{
+    const struct gb_chart_row *row = &table->row[i];
+    g_string_append_printf(text, "%c%c%c%c ",
+                           i == 0   ? 'R'
+                           : i == 1 ? 'P'
+                                    : ' ',
+                           row->pareto ? 'F' : ' ', row->noise_limited ? 'n' : ' ',
+                           row->chosen ? '*' : ' ');
+}
+
+static void add_errors(GString *text, const struct gb_chart_row *row, int pressures,
+                       bool reference)
+{
+    for (int k = 0; k < pressures; k++) {
+        char cell[48] = "";
+        if (reference && isfinite(row->density[k])) {
+            snprintf(cell, sizeof cell, "density %.4f", row->density[k]);
+        } else if (row->failed > 0) {
+            snprintf(cell, sizeof cell, "%d of %d failed", row->failed, row->seeds);
+        } else if (isfinite(row->error[k]) && isfinite(row->error_se[k])) {
+            snprintf(cell, sizeof cell, "%+.4f ± %.4f", row->error[k], row->error_se[k]);
+        } else if (row->seeds < 2) {
+            snprintf(cell, sizeof cell, "needs 2 seeds");
+        } else {
+            snprintf(cell, sizeof cell, "not reached");
+        }
+        const int wide = (int)(strlen(cell) - (size_t)g_utf8_strlen(cell, -1));
+        g_string_append_printf(text, "  %-*s", 16 + wide, cell);
+    }
+}
+
+static void add_table(GString *text, const struct gb_chart_table *table,
+                      const struct gb_chart_plan *plan)
+{
+    g_string_append(text, "       CPU s  evaluations  seeds");
+    add_pressure_heads(text, plan);
+    for (size_t i = 0; i < table->rows; i++) {
+        const struct gb_chart_row *row = &table->row[i];
+        if (row->seeds == 0) {
+            continue;
+        }
+        char setting[DESCRIPTION];
+        add_marks(text, table, i);
+        g_string_append_printf(text, "%7.3g  %11.4g  %5d", row->cpu_s, row->evaluations,
+                               row->seeds);
+        add_errors(text, row, plan->pressures, i == 0);
+        g_string_append_printf(text, "  %s\n",
+                               gb_chart_describe(&row->setting, setting, sizeof setting));
+    }
+    g_string_append(
+        text, "R reference, P the preset's own, F Pareto-optimal in cost and error,\n"
+              "n limited by noise (no error above two standard errors), "
+              "* recommended;\n"
+              "CPU s and evaluations of one cell\n");
+}
+
+static void add_recommended(GString *text, const struct gb_chart_table *table,
+                            const struct gb_chart_plan *plan)
+{
+    char setting[DESCRIPTION], scatter[GB_NUMBER_MAX];
+    g_string_append(text, "\nscatter of one cell:");
+    for (int k = 0; k < plan->pressures; k++) {
+        g_string_append_printf(text, " %s at %.4g MPa%s",
+                               gb_number_shown("%.4f", table->scatter[k], scatter),
+                               plan->pressure_pa[k] / 1e6,
+                               k + 1 < plan->pressures ? "," : "\n");
+    }
+    const struct gb_chart_row *chosen = gb_chart_table_chosen(table);
+    if (chosen) {
+        g_string_append_printf(
+            text, "cheapest setting with a smaller error: %s (%.3g CPU s)\n",
+            gb_chart_describe(&chosen->setting, setting, sizeof setting), chosen->cpu_s);
+    } else {
+        g_string_append(
+            text, "no setting is known to have a smaller error; more seeds reduce the "
+                  "uncertainty\n");
+    }
+}
+
+static void add_advice(GString *text, const struct gb_chart_advice *advice, int pressures)
+{
+    if (advice->sizes == 0) {
+        return;
+    }
+    g_string_append_printf(text,
+                           "\na standard error of %.4g in density needs\n"
+                           "particles  half edge  g(r) there, ripple  scatter  cells  "
+                           "CPU s\n",
+                           advice->standard_error);
+    for (int i = 0; i < advice->sizes; i++) {
+        const struct gb_chart_size *size = &advice->size[i];
+        double scatter = NAN;
+        for (int k = 0; k < pressures; k++) {
+            scatter = fmax(scatter, size->scatter[k]);
+        }
+        g_string_append_printf(
+            text, "%9lld  %7.3g d      %.3f    %.3f  %7.4f  %5.0f  %5.3g%s\n",
+            (long long)size->count, size->half_edge, size->g_end, size->ripple, scatter,
+            size->cells, size->cells * size->cpu_s,
+            size->large_enough ? "" : "  too small: g(L/2) is not 1");
+    }
+}
+
+GString *gb_chart_table_text(const struct gb_chart_table *table,
+                             const struct gb_chart_plan *plan)
+{
+    GString *text = g_string_new(NULL);
+    add_table(text, table, plan);
+    return text;
+}
+
+GString *gb_chart_table_results(const struct gb_chart_table *table,
+                                const struct gb_chart_plan *plan,
+                                const struct gb_chart_advice *advice)
+{
+    GString *text = g_string_new(NULL);
+    add_recommended(text, table, plan);
+    add_advice(text, advice, plan->pressures);
     return text;
 }

@@ -1,12 +1,12 @@
 #ifndef GB_STUDY_CHART_CHART_TABLE_H
 #define GB_STUDY_CHART_CHART_TABLE_H
 
+#include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
-#include <glib.h>
-
-#include "study/chart/chart_log.h"
+#include "study/chart/chart.h"
 
 /* Error against cost, one row per setting, from the cells simulated so far. */
 struct gb_chart_row {
@@ -39,6 +39,7 @@ struct gb_chart_table {
  * limit at every pressure. */
 void gb_chart_table_init(struct gb_chart_table *table, const struct gb_chart_log *log,
                          double allowed);
+
 void gb_chart_table_finish(struct gb_chart_table *table); /* zeroed is fine */
 
 /* The recommended row, or NULL. */
@@ -47,5 +48,43 @@ const struct gb_chart_row *gb_chart_table_chosen(const struct gb_chart_table *ta
 /* As CSV; comment goes in front, lines with '#'.  g_string_free. */
 GString *gb_chart_table_csv(const struct gb_chart_table *table,
                             const struct gb_chart_plan *plan, const char *comment);
+
+/* Size and number of cells for a given standard error. */
+struct gb_chart_size {
+    int64_t count;
+    double half_edge;  /* half the shortest edge of the initial cell, d */
+    double g_end;      /* mean g(r) over the last diameter before it ... */
+    double ripple;     /* ... and how far its quarters are from 1, rms */
+    bool large_enough; /* it is 1: no correlation across the periodic cell */
+    double scatter[GB_CHART_PRESSURES]; /* of one cell; NaN: not measured */
+    double cpu_s;                       /* of one cell */
+    double cells;                       /* for the standard error at every pressure */
+};
+
+enum { GB_CHART_SIZES = 8 };
+
+struct gb_chart_advice {
+    double standard_error;
+    struct gb_chart_size size[GB_CHART_SIZES]; /* by particles */
+    int sizes;
+};
+
+/* From the rows that differ from the preset's own in the number of particles only; g(r)
+ * of up to eight initial structures each.  Errors: those of the engine. */
+bool gb_chart_table_advise(struct gb_chart_advice *advice,
+                           const struct gb_chart_table *table,
+                           const struct gb_chart_plan *plan, double standard_error,
+                           struct gb_error *err);
+
+/* A chart as text; g_string_free. */
+
+/* A line per setting, and the legend of its marks. */
+GString *gb_chart_table_text(const struct gb_chart_table *table,
+                             const struct gb_chart_plan *plan);
+
+/* Scatter, the recommended setting, and the cells for a standard error. */
+GString *gb_chart_table_results(const struct gb_chart_table *table,
+                                const struct gb_chart_plan *plan,
+                                const struct gb_chart_advice *advice);
 
 #endif

@@ -1,17 +1,23 @@
+/* Compacts in memory: pressed once, then followed along other paths on copies. */
 #include "study/compact/compact.h"
 
 #include <glib.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "measure/elastic.h"
+#include "measure/yield_offset.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "scene/field/changes.h"
 #include "scene/path/path.h"
 #include "scene/tolerances.h"
 #include "solve/moduli/moduli.h"
+
+/* --- pressing, and paths of copies ---------------------------------------------------- */
 
 /* Force evaluations between two looks at whether to stop. */
 enum { SLICE = 2000 };
@@ -192,8 +198,11 @@ enum gb_compact_outcome gb_compact_follow(struct gb_compact *from, const char *p
     return outcome;
 }
 
-char *gb_compact_leg(double axial, double lateral, const char *end, char *buffer,
-                     size_t size)
+/* The leg along which axial and lateral pressure (p_x = p_y) change in proportion: the axis
+ * that changes more is strained, the other follows.  end: of that axis, as "3 %" or
+ * "50 MPa".  Returns buffer. */
+static char *leg_of(double axial, double lateral, const char *end, char *buffer,
+                    size_t size)
 {
     if (fabs(axial) >= fabs(lateral)) {
         snprintf(buffer, size, "strain z = 1 to %s at x = y by %.12f z", end,
@@ -231,7 +240,7 @@ static bool unloading(const struct gb_point *at, double pressure_pa, int attempt
     attempt = attempt < 0 ? 0 : attempt;
     snprintf(end, sizeof end, "%s = %.9g MPa", fabs(axial) >= fabs(lateral) ? "z" : "x",
              1e-6 * pressure_pa);
-    gb_compact_leg(axial, lateral, end, leg, size);
+    leg_of(axial, lateral, end, leg, size);
     *step = hold_step * steps[attempt < 4 ? attempt : 0];
     return attempt < 4;
 }
@@ -349,4 +358,99 @@ struct gb_compact_state gb_compact_state_of(const struct gb_point *point)
         .volume = e[0] + e[1] + e[2],
         .shear = 2.0 / 3.0 * (e[2] - 0.5 * (e[0] + e[1])),
     };
+}
+
+/* --- probes --------------------------------------------------------------------------- */
+
+/* What the growing probe is compared with at each point. */
+struct growing {
+    struct gb_compact_probe *probe;
+    double enough;
+};
+
+/* e_z = v/3 + w and e_x = e_y = v/3 - w/2. */
+char *gb_compact_probe_leg(double volume, double shear, double strain_most, char *buffer,
+                           size_t size)
+{
+    const double axial = volume / 3.0 + shear, lateral = volume / 3.0 - 0.5 * shear;
+    if (fabs(axial) >= fabs(lateral)) {
+        snprintf(buffer, size, "strain z = 1, x = %.12f, y = %.12f to %.9g %%",
+                 lateral / axial, lateral / axial, 100.0 * copysign(strain_most, axial));
+    } else {
+        snprintf(buffer, size, "strain x = 1, y = 1, z = %.12f to %.9g %%",
+                 axial / lateral, 100.0 * copysign(strain_most, lateral));
+    }
+    return buffer;
+}
+
+/* Columns of the states, for g_free. */
+static double *columns_of(const struct gb_compact_probe *probe,
+                          struct gb_yield_path *path)
+{
+    const size_t count = probe->state->len;
+    double *column = g_new(double, 4 * count);
+    for (size_t i = 0; i < count; i++) {
+        const struct gb_compact_state *state =
+            &g_array_index(probe->state, struct gb_compact_state, i);
+        column[i] = state->p;
+        column[count + i] = state->q;
+        column[2 * count + i] = state->volume;
+        column[3 * count + i] = state->shear;
+    }
+    *path = (struct gb_yield_path){
+        column, column + count,  column + 2 * count, column + 3 * count,
+        count,  probe->direction};
+    return column;
+}
+
+bool gb_compact_probe_point(const struct gb_compact_probe *probe, double offset,
+                            double flow_end, struct gb_yield_point *point)
+{
+    struct gb_yield_path path;
+    double *columns = columns_of(probe, &path);
+    const bool reached =
+        gb_yield_offset_find(&path, &probe->elastic, offset, flow_end, point);
+    g_free(columns);
+    return reached;
+}
+
+static bool take(void *data, const struct gb_point *point)
+{
+    const struct growing *growing = data;
+    struct gb_yield_point ignored;
+    const struct gb_compact_state state = gb_compact_state_of(point);
+    g_array_append_val(growing->probe->state, state);
+    return !gb_compact_probe_point(growing->probe, growing->enough, 1.0, &ignored);
+}
+
+bool gb_compact_probe_run(struct gb_compact_probe *probe, struct gb_compact *inside,
+                          double direction, const struct gb_yield_elastic *elastic,
+                          const struct gb_compact_probe_steps *steps,
+                          const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    char leg[GB_LEG_TEXT];
+    const double(*compliance)[2] = elastic->compliance;
+    const double p = cos(direction), q = sin(direction);
+    struct growing growing = {probe, steps->enough};
+    const struct gb_compact_walk walk = {take, &growing, callbacks};
+    const struct gb_compact_state start = gb_compact_state_of(&inside->point);
+    probe->direction = direction;
+    probe->elastic = *elastic;
+    probe->state = g_array_new(FALSE, FALSE, sizeof(struct gb_compact_state));
+    g_array_append_val(probe->state, start);
+    gb_compact_probe_leg(compliance[0][0] * p + compliance[0][1] * q,
+                         compliance[1][0] * p + compliance[1][1] * q, steps->strain_most,
+                         leg, sizeof leg);
+    probe->outcome =
+        gb_compact_follow(inside, leg, steps->step, &walk, NULL, &probe->why);
+    return probe->outcome != GB_COMPACT_FAILED ||
+           gb_error_set(err, probe->why.code, "%s", probe->why.text);
+}
+
+void gb_compact_probe_finish(struct gb_compact_probe *probe)
+{
+    if (probe->state != NULL) {
+        g_array_unref(probe->state);
+    }
+    probe->state = NULL;
 }

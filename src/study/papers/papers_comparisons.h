@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "many/reading.h"
-#include "study/papers/papers_sample.h"
+#include "study/papers/papers_plan.h"
 
 /* What is compared with each printed number: a measure over the runs of an experiment. */
 
@@ -37,6 +37,10 @@ struct gb_papers_comparison {
     double scale;        /* of the result; 0: 1 */
     const char *why;     /* the reason of a deviation, Markdown; NULL: not known */
 };
+
+/* Mean of the reading at a point, and difference of the means at `point` and `other`: for
+ * tests of rows. */
+gb_papers_measure gb_papers_comparisons_mean, gb_papers_comparisons_difference;
 
 /* THE table; the last row has no id. */
 const struct gb_papers_comparison *gb_papers_comparisons_table(void);

@@ -1,12 +1,124 @@
+/* What is computed to compare with the papers: experiments, their runs, and the runs read
+ * back. */
 #include "study/papers/papers_plan.h"
 
+#include <glib.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
-#include <glib.h>
-
+#include "io/preset.h"
+#include "many/ensemble.h"
+#include "many/sweep/axes.h"
 #include "run/cost.h"
 #include "scene/loading_kind.h"
+
+/* The simulations that the printed numbers of the papers need: a preset with changes, an
+ * axis, and how many cells at each of its values. */
+
+/* --- experiments ---------------------------------------------------------------------- */
+
+#define SMALL_CELL "particles.count=1000", "structure.base=auto"
+#define SHORT_HOLD "loading.relax=2 ns", "loading.hold=10 ns"
+
+static const struct gb_papers_experiment experiments[] = {
+    {"P1-fig5", "four powders with bridges, P1 Figs. 5, 6, 8", "p1-set2-9.7nm",
+     .change = {"output.snapshots_at=1 GPa"},
+     .axis = "particles.diameter=9.7;16;21;38 nm",
+     .extent = {{.cells = 10}, {.cells = 16, .change = {SMALL_CELL}}}},
+    {"P1-fig6", "four powders by friction alone, P1 Fig. 6", "p1-nobridge-9.7nm",
+     .change = {"loading.until=105 MPa", "loading.unload_from=100 MPa"},
+     .axis = "particles.diameter=9.7;16;21;38 nm",
+     .extent = {{.cells = 10}, {.cells = 16, .change = {SMALL_CELL}}}},
+    {"P1-fig12", "three geometries of loading, P1 Figs. 11 to 14", "p1-set1-uniaxial",
+     .axis = "loading.geometry=uniaxial;biaxial;isotropic",
+     .extent = {{.cells = 10}, {.cells = 16, .change = {SMALL_CELL}}}},
+    {"P1-fig3", "structure of 600 discs on 30 d, P1 Fig. 3", "p1-fig3",
+     .change = {"structure.seed=1", "loading.until=density=0.53", "loading.unload_from="},
+     .extent = {{.cells = 100}, {.cells = 20}}},
+    {"P2-v1", "discs at 6.8e8 1/s, P2 Figs. 2 to 4, Table 1", "p2-v1",
+     .extent = {{.cells = 30}, {.cells = 16, .change = {SHORT_HOLD}}}},
+    {"P2-v2", "discs at 6.8e7 1/s", "p2-v2",
+     .extent = {{.cells = 30}, {.cells = 16, .change = {SHORT_HOLD}}}},
+    {"P2-v3", "discs at 6.8e6 1/s", "p2-v3",
+     .extent = {{.cells = 16}, {.cells = 6, .change = {SHORT_HOLD}}}},
+    {"P2-v4", "discs at 6.8e5 1/s", "p2-v4", .extent = {{.cells = 4}, {.cells = 0}}},
+    {"P2-v5", "discs at 6.8e4 1/s", "p2-v5", .extent = {{.cells = 1}, {.cells = 0}}},
+    {"P2-full", "the same with both options that P2's text leaves open", "p2-v1",
+     .change = {"contact.bridge_radius=current", "contact.relative_motion=full"},
+     .axis = "loading.rate=6.8e8;6.8e7;6.8e6 1/s",
+     .extent = {{.cells = 10}, {.cells = 0}}},
+    {"P3-hertz", "frictionless Hertz in P3's die, P3 Figs. 16 to 18", "p3-hertz-mu0",
+     .extent = {{.cells = 3}, {.cells = 3, .change = {"numerics.fidelity=fast"}}}},
+    {"P3-storakers", "frictionless Storakers, P3 Figs. 17, 18", "p3-storakers-m0.2-mu0",
+     .axis = "material.hardening=0;0.1;0.2", .extent = {{.cells = 3}, {.cells = 0}}},
+    {"P3-friction", "Hertz with friction, P3 Fig. 19", "p3-hertz-mu0.01",
+     .axis = "contact.mu=0.01;0.02;0.05", .extent = {{.cells = 3}, {.cells = 0}}},
+    {"P3-storakers-friction", "Storakers with friction, P3 Fig. 20",
+     "p3-storakers-m0.2-mu0.01", .axis = "contact.mu=0.01;0.02;0.05",
+     .extent = {{.cells = 3}, {.cells = 0}}},
+    {0},
+};
+
+const struct gb_papers_experiment *gb_papers_plan_table(void)
+{
+    return experiments;
+}
+
+size_t gb_papers_plan_count(void)
+{
+    return G_N_ELEMENTS(experiments) - 1;
+}
+
+size_t gb_papers_plan_index(const char *name)
+{
+    size_t k = 0;
+    while (experiments[k].name != NULL && strcmp(experiments[k].name, name) != 0) {
+        k++;
+    }
+    return k;
+}
+
+static bool apply(struct gb_params *params, const char *const change[GB_PAPERS_CHANGES],
+                  struct gb_error *err)
+{
+    for (int k = 0; k < GB_PAPERS_CHANGES && change[k] != NULL; k++) {
+        if (!gb_params_assign(params, change[k], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gb_papers_plan_axes(const struct gb_papers_experiment *experiment,
+                         struct gb_axes *axes, struct gb_error *err)
+{
+    *axes = (struct gb_axes){0};
+    return experiment->axis == NULL || gb_axes_add(axes, experiment->axis, err);
+}
+
+bool gb_papers_plan_params(const struct gb_papers_experiment *experiment,
+                           enum gb_papers_size size, size_t point,
+                           struct gb_params *params, struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    struct gb_axes axes = {0};
+    bool good = gb_preset_load(&preset, experiment->preset, err);
+    if (good) {
+        *params = *gb_preset_params(preset);
+        good = apply(params, experiment->change, err) &&
+               (size == GB_PAPERS_SIZES ||
+                apply(params, experiment->extent[size].change, err)) &&
+               gb_papers_plan_axes(experiment, &axes, err) &&
+               gb_axes_apply(&axes, point, params, err);
+    }
+    gb_axes_finish(&axes);
+    gb_preset_destroy(preset);
+    return good;
+}
+
+/* --- runs ----------------------------------------------------------------------------- */
 
 /* P3's bed: filling and pressing took 50 s of one core, by docs/die.md. */
 static const double die_s = 50.0;
@@ -22,14 +134,13 @@ static bool begins(const char *name, char *const *words)
 
 static bool check_words(char *const *words, struct gb_error *err)
 {
-    const struct gb_papers_experiment *table = gb_papers_experiments_table();
     for (size_t k = 0; words != NULL && words[k] != NULL; k++) {
         char *const one[] = {words[k], NULL};
         bool found = false;
         GString *names = g_string_new(NULL);
-        for (size_t e = 0; table[e].name != NULL; e++) {
-            found = found || begins(table[e].name, one);
-            g_string_append_printf(names, "%s%s", e > 0 ? ", " : "", table[e].name);
+        for (size_t e = 0; experiments[e].name != NULL; e++) {
+            found = found || begins(experiments[e].name, one);
+            g_string_append_printf(names, "%s%s", e > 0 ? ", " : "", experiments[e].name);
         }
         if (!found) {
             gb_error_set(err, GB_ERR_INPUT,
@@ -70,12 +181,12 @@ struct list {
 static bool add_point(struct list *list, size_t experiment, const struct gb_axes *axes,
                       size_t point, struct gb_error *err)
 {
-    const struct gb_papers_experiment *row = &gb_papers_experiments_table()[experiment];
+    const struct gb_papers_experiment *row = &experiments[experiment];
     const struct gb_papers_options *options = list->options;
     const int cells =
         options->cells > 0 ? options->cells : row->extent[options->size].cells;
     struct gb_params params;
-    if (!gb_papers_experiments_params(row, options->size, point, &params, err) ||
+    if (!gb_papers_plan_params(row, options->size, point, &params, err) ||
         !change_count(&params, options->count, err) || !gb_params_check(&params, err)) {
         return false;
     }
@@ -97,8 +208,7 @@ static bool add_point(struct list *list, size_t experiment, const struct gb_axes
 static bool add_experiment(struct list *list, size_t experiment, struct gb_error *err)
 {
     struct gb_axes axes = {0};
-    bool good = gb_papers_experiments_axes(&gb_papers_experiments_table()[experiment],
-                                           &axes, err);
+    bool good = gb_papers_plan_axes(&experiments[experiment], &axes, err);
     for (size_t point = 0; good && point < gb_axes_points(&axes); point++) {
         good = add_point(list, experiment, &axes, point, err);
     }
@@ -145,9 +255,8 @@ static void sort_into(struct gb_papers_plan *plan, struct list *list)
 static bool fill(struct gb_papers_plan *plan, struct list *list, struct gb_error *err)
 {
     bool good = true;
-    for (size_t e = 0; good && e < gb_papers_experiments_count(); e++) {
-        plan->selected[e] =
-            begins(gb_papers_experiments_table()[e].name, list->options->only);
+    for (size_t e = 0; good && e < gb_papers_plan_count(); e++) {
+        plan->selected[e] = begins(experiments[e].name, list->options->only);
         good = !plan->selected[e] || add_experiment(list, e, err);
     }
     plan->count = list->run->len;
@@ -189,12 +298,6 @@ void gb_papers_plan_finish(struct gb_papers_plan *plan)
     *plan = (struct gb_papers_plan){0};
 }
 
-char *gb_papers_plan_directory(const struct gb_papers_plan *plan, size_t experiment)
-{
-    return g_build_filename(plan->directory,
-                            gb_papers_experiments_table()[experiment].name, NULL);
-}
-
 double gb_papers_plan_remaining_s(const struct gb_papers_plan *plan, size_t *runs)
 {
     double seconds = 0.0;
@@ -216,15 +319,81 @@ GString *gb_papers_plan_runs(const struct gb_papers_plan *plan)
         const struct gb_ensemble_run *run = &plan->ensemble.run[k];
         const bool failed = run->ended && run->error.code != GB_OK;
         char *why = g_strdelimit(g_strdup(failed ? run->error.text : ""), "\",\n", ' ');
-        g_string_append_printf(
-            text, "%s,%s,%" G_GUINT64_FORMAT ",%s,%s\n",
-            gb_papers_experiments_table()[plan->run[k].experiment].name,
-            run->directory + skipped, run->params.seed,
-            !run->ended ? "missing"
-            : failed    ? "failed"
-                        : "done",
-            why);
+        g_string_append_printf(text, "%s,%s,%" G_GUINT64_FORMAT ",%s,%s\n",
+                               experiments[plan->run[k].experiment].name,
+                               run->directory + skipped, run->params.seed,
+                               !run->ended ? "missing"
+                               : failed    ? "failed"
+                                           : "done",
+                               why);
         g_free(why);
     }
     return text;
+}
+
+/* --- runs read back ------------------------------------------------------------------- */
+
+static bool read_experiment(struct gb_papers_cells *cells, size_t experiment,
+                            const struct gb_papers_plan *plan, struct gb_error *err)
+{
+    GPtrArray *list = g_ptr_array_new();
+    cells->point = g_new(size_t, plan->count + 1);
+    cells->cell = g_new(size_t, plan->count + 1);
+    for (size_t k = 0; k < plan->count; k++) {
+        const struct gb_ensemble_run *run = &plan->ensemble.run[k];
+        if (plan->run[k].experiment == experiment && run->ended &&
+            run->error.code == GB_OK) {
+            cells->point[list->len] = plan->run[k].point;
+            cells->cell[list->len] = plan->run[k].cell;
+            cells->most = MAX(cells->most, plan->run[k].cell + 1);
+            g_ptr_array_add(list, run->directory);
+        }
+    }
+    const bool good =
+        list->len == 0 ||
+        gb_runset_read(&cells->set, (char *const *)list->pdata, list->len, err);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+bool gb_papers_plan_read(struct gb_papers_data *data, const struct gb_papers_plan *plan,
+                         struct gb_error *err)
+{
+    bool good = true;
+    *data = (struct gb_papers_data){0};
+    for (size_t e = 0; good && e < gb_papers_plan_count(); e++) {
+        good = !plan->selected[e] || read_experiment(&data->experiment[e], e, plan, err);
+    }
+    return good;
+}
+
+void gb_papers_plan_data_finish(struct gb_papers_data *data)
+{
+    for (size_t e = 0; e < GB_PAPERS_EXPERIMENTS_MOST; e++) {
+        gb_runset_finish(&data->experiment[e].set);
+        g_free(data->experiment[e].point);
+        g_free(data->experiment[e].cell);
+    }
+    *data = (struct gb_papers_data){0};
+}
+
+bool gb_papers_plan_lacks(const struct gb_papers_view *view, size_t experiment, size_t i)
+{
+    return view->experiment == experiment &&
+           view->cell == view->data->experiment[experiment].cell[i];
+}
+
+size_t gb_papers_plan_point(const struct gb_papers_view *view, size_t experiment,
+                            size_t point, struct gb_runset *set)
+{
+    const struct gb_papers_cells *cells = &view->data->experiment[experiment];
+    *set = (struct gb_runset){.run = g_new(struct gb_runset_run, cells->set.count + 1),
+                              .groups = 1};
+    for (size_t i = 0; i < cells->set.count; i++) {
+        if (cells->point[i] == point && !gb_papers_plan_lacks(view, experiment, i)) {
+            set->run[set->count] = cells->set.run[i];
+            set->run[set->count++].group = 0;
+        }
+    }
+    return set->count;
 }

@@ -6,9 +6,6 @@
 #include "many/sweep/param_sweep.h"
 #include "measure/fit/sobol_indices.h"
 
-/* Sensitivities of what a sweep by a design measures: which varied key its figures depend
- * on, apart from the scatter of the cells. */
-
 /* One figure at one pressure. */
 struct gb_sensitivity_item {
     size_t branch, pressure, quantity; /* indices as in many/sweep/sweep_readings.h */
@@ -26,9 +23,19 @@ struct gb_sensitivity {
  * gb_sensitivity_finish is due in any case. */
 bool gb_sensitivity_init(struct gb_sensitivity *sensitivity, struct gb_param_sweep *sweep,
                          struct gb_error *err);
+
 void gb_sensitivity_finish(struct gb_sensitivity *sensitivity);
 
 /* Does the design have the points for a quadratic of its keys?  Errors: GB_ERR_INPUT. */
 bool gb_sensitivity_check(const struct gb_axes *axes, struct gb_error *err);
+
+/* sensitivity.csv: a row per figure, pressure and key.  g_string_free. */
+GString *gb_sensitivity_table(const struct gb_sensitivity *sensitivity,
+                              const struct gb_param_sweep *sweep);
+
+/* The density at the highest pressure that has it on loading, for people; empty: none.
+ * g_string_free. */
+GString *gb_sensitivity_lines(const struct gb_sensitivity *sensitivity,
+                              const struct gb_param_sweep *sweep);
 
 #endif

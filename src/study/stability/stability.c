@@ -1,16 +1,324 @@
+/* The longest stable step of each method.  A small disturbance of a packing at rest grows when
+ * the step is longer than a bound.  Theory: from the highest frequency of the linearised
+ * packing, which power iteration finds.  Measurement: the method itself runs, and the step is
+ * bisected. */
 #include "study/stability/stability.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
+#include "greenbody/params.h"
 #include "law/critical_step.h"
+#include "pack/cell/world.h"
+#include "pack/structure/chain_growth.h"
+#include "run/keep_walk.h"
 #include "scene/loading_kind.h"
+#include "scene/model.h"
 #include "solve/loading/dynamic_step.h"
+#include "solve/moduli/probe.h"
+#include "solve/relax/relax.h"
 #include "solve/relax/relax_fire.h"
 #include "solve/verlet.h"
-#include "study/stability/stability_scene.h"
+
+/* --- packings at rest ----------------------------------------------------------------- */
+
+/* Disturbances in d: far below every overlap, far above rounding. */
+static const double small = 1e-8;
+/* Residual at which a grown packing is at rest: what is left moves no particle by as much
+ * as a disturbance. */
+static const double rest = 1e-11;
+enum { CHAIN = 8, LATTICE = 4, ITERATIONS_MOST = 4000, EVALUATIONS_MOST = 100000 };
+
+static bool make_params(struct gb_params *params, enum gb_stability_law law,
+                        struct gb_error *err)
+{
+    static const char *const assignment[][3] = {
+        [GB_STABILITY_ROD] = {"contact.mu=0", "contact.bridge_length=1 d"},
+        [GB_STABILITY_FRICTION] = {"contact.mu=1", "contact.bridge_length=1 d"},
+        [GB_STABILITY_BRIDGE] = {"contact.mu=0.1", "contact.bridge_length=0.008 d"},
+    };
+    gb_params_init(params);
+    return gb_params_assign(params, "scene.kind=dynamic", err) &&
+           gb_params_assign(params, "particles.diameter=9.7 nm", err) &&
+           gb_params_assign(params, "particles.count=200", err) &&
+           gb_params_assign(params, "loading.until=density = 0.6", err) &&
+           gb_params_assign(params, "contact.viscosity=0 Pa s", err) &&
+           gb_params_assign(params, "numerics.threads=1", err) &&
+           gb_params_assign(params, "numerics.relaxer=fire", err) &&
+           gb_params_assign(params, assignment[law][0], err) &&
+           gb_params_assign(params, assignment[law][1], err);
+}
+
+/* Room for `along` particles in a row at the equilibrium distance r. */
+static void set_row(struct gb_model *model, double r, int along, double *position)
+{
+    model->count = along;
+    model->edges[0] = along == 2 ? 8.0 : along * r;
+    model->edges[1] = model->edges[2] = 8.0;
+    for (int i = 0; i < along; i++) {
+        position[3 * i] = 1.0 + i * r;
+        position[3 * i + 1] = position[3 * i + 2] = 4.0;
+    }
+}
+
+static void set_lattice(struct gb_model *model, double r, double *position)
+{
+    model->count = LATTICE * LATTICE * LATTICE;
+    for (int i = 0; i < LATTICE * LATTICE * LATTICE; i++) {
+        position[3 * i] = r * (i % LATTICE + 0.5);
+        position[3 * i + 1] = r * (i / LATTICE % LATTICE + 0.5);
+        position[3 * i + 2] = r * (i / LATTICE / LATTICE + 0.5);
+    }
+    for (int k = 0; k < 3; k++) {
+        model->edges[k] = LATTICE * r;
+    }
+}
+
+static bool set_positions(struct gb_stability_scene *scene,
+                          enum gb_stability_packing packing, double *position,
+                          struct gb_error *err)
+{
+    const double r = 1.0 - scene->model.h_eq;
+    switch (packing) {
+    case GB_STABILITY_PAIR:
+        set_row(&scene->model, r, 2, position);
+        return true;
+    case GB_STABILITY_CHAIN:
+        set_row(&scene->model, r, CHAIN, position);
+        return true;
+    case GB_STABILITY_LATTICE:
+        set_lattice(&scene->model, r, position);
+        return true;
+    default:
+        break;
+    }
+    const struct gb_chain_growth grow = gb_chain_growth_from_model(&scene->model);
+    return gb_chain_growth_run(&grow, position, err);
+}
+
+bool gb_stability_scene_reset(struct gb_stability_scene *scene, struct gb_error *err)
+{
+    return gb_world_copy_restore(scene->world, scene->rest, err) &&
+           gb_world_evaluate(scene->world, err);
+}
+
+/* By what a component of the mode is divided for a motion, and an elastic force for a
+ * component: the root of the mass, for turns (k from 3 x count on) of the inertia. */
+static double stability_scene_root(const struct gb_stability_scene *scene, int64_t k)
+{
+    const int64_t n = 3 * scene->model.count;
+    const double mass = scene->mass ? scene->mass[k % n / 3] : 1.0;
+    return sqrt(k < n ? mass : mass * scene->inertia);
+}
+
+/* Moves the particles by `by` times the mode. */
+static void stability_scene_move(const struct gb_stability_scene *scene,
+                                 const double *mode, double by)
+{
+    const struct gb_bodies b = gb_world_bodies(scene->world);
+    const int64_t n = 3 * b.count;
+    for (int64_t i = 0; i < n; i++) {
+        b.position[i] += by * mode[i] / stability_scene_root(scene, i);
+        b.rotation[i] += by * mode[n + i] / stability_scene_root(scene, n + i);
+    }
+}
+
+/* Mass-weighted: lengths, and turns times the root of the inertia. */
+static double unit_length(double *vector, int64_t n)
+{
+    double square = 0.0;
+    for (int64_t i = 0; i < n; i++) {
+        square += vector[i] * vector[i];
+    }
+    const double length = sqrt(square);
+    for (int64_t i = 0; i < n && length > 0.0; i++) {
+        vector[i] /= length;
+    }
+    return length;
+}
+
+/* image = M^(-1/2) K M^(-1/2) mode, from the forces of a small move.  The springs carry a
+ * history: every product starts from the packing at rest. */
+static bool multiply(struct gb_stability_scene *scene, const double *force_at_rest,
+                     const double *mode, double *image, struct gb_error *err)
+{
+    if (!gb_stability_scene_reset(scene, err)) {
+        return false;
+    }
+    const struct gb_bodies b = gb_world_bodies(scene->world);
+    const int64_t n = 3 * b.count;
+    stability_scene_move(scene, mode, small);
+    if (!gb_world_evaluate(scene->world, err)) {
+        return false;
+    }
+    for (int64_t i = 0; i < n; i++) {
+        image[i] = (force_at_rest[i] - b.force[i]) / small;
+        image[n + i] = (force_at_rest[n + i] - b.torque[i]) / small;
+    }
+    for (int64_t k = 0; k < 2 * n; k++) {
+        image[k] /= stability_scene_root(scene, k);
+    }
+    return true;
+}
+
+/* The largest eigenvalue is that of the stiffest mode; K + shift would only be needed if
+ * a negative one were larger, which a packing at rest does not have. */
+static bool find_mode(struct gb_stability_scene *scene, struct gb_error *err)
+{
+    const int64_t n = 3 * scene->model.count;
+    double *work = gb_alloc_array(4 * (size_t)n, sizeof *work, err);
+    scene->mode = gb_alloc_array(2 * (size_t)n, sizeof *scene->mode, err);
+    bool done = work && scene->mode && gb_stability_scene_reset(scene, err);
+    if (done) {
+        const struct gb_bodies b = gb_world_bodies(scene->world);
+        memcpy(work + 2 * n, b.force, (size_t)n * sizeof *work);
+        memcpy(work + 3 * n, b.torque, (size_t)n * sizeof *work);
+        for (int64_t i = 0; i < 2 * n; i++) { /* no symmetry, the same every time */
+            const bool moves = scene->model.dimension == 3 || (i % 3 == 1) == (i >= n);
+            scene->mode[i] = moves ? sin(1.0 + 12.9898 * (double)i) : 0.0;
+        }
+        unit_length(scene->mode, 2 * n);
+    }
+    double last = 0.0;
+    for (int i = 0; i < ITERATIONS_MOST && done; i++) {
+        done = multiply(scene, work + 2 * n, scene->mode, work, err);
+        const double value = unit_length(work, 2 * n);
+        memcpy(scene->mode, work, 2 * (size_t)n * sizeof *work);
+        scene->frequency = sqrt(value);
+        if (i > 20 && fabs(value - last) < 1e-7 * value) {
+            break;
+        }
+        last = value;
+    }
+    gb_alloc_free(work);
+    return done;
+}
+
+/* Pairs grown a little farther apart than at equilibrium pull each other. */
+static bool settle(struct gb_stability_scene *scene, struct gb_error *err)
+{
+    struct gb_relax *relax = NULL;
+    bool done = gb_relax_create(&relax, &scene->model, err);
+    if (done) {
+        relax->tolerance = rest;
+        relax->scale = GB_TOLERANCE_CONTACT;
+        relax->max_evaluations = EVALUATIONS_MOST;
+        gb_relax_start(relax, scene->world);
+        const enum gb_relax_outcome outcome =
+            gb_relax_advance(relax, scene->world, EVALUATIONS_MOST, err);
+        done = outcome == GB_RELAX_DONE ||
+               (outcome != GB_RELAX_FAILED &&
+                gb_error_set(err, GB_ERR_NOT_CONVERGED, "the packing does not settle"));
+    }
+    gb_relax_destroy(relax);
+    return done;
+}
+
+bool gb_stability_scene_init(struct gb_stability_scene *scene,
+                             enum gb_stability_packing packing, enum gb_stability_law law,
+                             double inertia, struct gb_error *err)
+{
+    struct gb_params params;
+    *scene = (struct gb_stability_scene){.inertia = inertia};
+    if (!make_params(&params, law, err) || !gb_model_init(&scene->model, &params, err)) {
+        return false;
+    }
+    /* attraction across gaps would leave no scene at rest */
+    scene->model.numerics.cutoff = 1.0;
+    double *position =
+        gb_alloc_array(3 * (size_t)scene->model.count, sizeof *position, err);
+    bool done = position && set_positions(scene, packing, position, err) &&
+                gb_world_create(&scene->world, &scene->model, position, err);
+    gb_alloc_free(position);
+    if (done) {
+        gb_world_set_step(scene->world, 1.0);
+        done = settle(scene, err) &&
+               gb_world_copy_save(scene->world, &scene->rest, err) &&
+               find_mode(scene, err);
+    }
+    return done;
+}
+
+static bool assign_masses(struct gb_stability_scene *scene, int power,
+                          struct gb_error *err)
+{
+    const double *diameter = gb_world_diameters(scene->world);
+    if (diameter == NULL) {
+        return true;
+    }
+    scene->mass = gb_alloc_array((size_t)scene->model.count, sizeof *scene->mass, err);
+    for (int64_t i = 0; scene->mass && i < scene->model.count; i++) {
+        scene->mass[i] = 1.0;
+        for (int k = 0; k < power; k++) {
+            scene->mass[i] *= diameter[i];
+        }
+    }
+    return scene->mass != NULL;
+}
+
+/* A copy of a world right after an evaluation, brought to rest, its mode without viscous
+ * forces.  power: masses are the diameters to this power.  Errors: those of
+ * gb_probe_create. */
+static bool stability_scene_copy(struct gb_stability_scene *scene,
+                                 const struct gb_world *world, double inertia, int power,
+                                 struct gb_error *err)
+{
+    struct gb_probe *probe = NULL;
+    *scene =
+        (struct gb_stability_scene){.model = *gb_world_model(world), .inertia = inertia};
+    const double viscous = scene->model.dynamics.viscous;
+    scene->model.dynamics.viscous = 0.0;
+    scene->model.numerics.single = false;
+    bool done = gb_probe_create(&probe, world, NULL, NULL, err) &&
+                gb_world_create(&scene->world, &scene->model,
+                                gb_world_position(probe->world), err) &&
+                gb_world_copy_save(probe->world, &scene->rest, err) &&
+                assign_masses(scene, power, err);
+    gb_probe_destroy(probe);
+    if (done) {
+        gb_world_set_step(scene->world, 1.0);
+        done = find_mode(scene, err);
+    }
+    scene->model.dynamics.viscous = viscous;
+    return done;
+}
+
+void gb_stability_scene_finish(struct gb_stability_scene *scene)
+{
+    gb_world_destroy(scene->world);
+    gb_world_copy_destroy(scene->rest);
+    gb_alloc_free(scene->mode);
+    gb_alloc_free(scene->mass);
+    *scene = (struct gb_stability_scene){0};
+}
+
+/* The frequency in closed form: normal or rotational-tangential mode of a pair, normal
+ * mode of a chain; NaN for other scenes. */
+static double stability_scene_exact(const struct gb_stability_scene *scene,
+                                    enum gb_stability_packing packing,
+                                    enum gb_stability_law law)
+{
+    const struct gb_model *model = &scene->model;
+    const double h = model->h_eq;
+    const double normal = gb_law_rod_stiffness(&model->rod, h);
+    if (packing == GB_STABILITY_CHAIN && law == GB_STABILITY_ROD) {
+        return sqrt(4.0 * normal);
+    }
+    if (packing != GB_STABILITY_PAIR) {
+        return NAN;
+    }
+    /* two masses, and two inertias on levers of half a distance */
+    const double r = 1.0 - h;
+    const double shear =
+        model->slip.motion * gb_law_slip_shear_stiffness(&model->slip, 0.5 * sqrt(h));
+    return law == GB_STABILITY_ROD ? sqrt(2.0 * normal)
+                                   : sqrt(shear * (2.0 + 0.5 * r * r / scene->inertia));
+}
+
+/* --- the methods ---------------------------------------------------------------------- */
 
 /* A disturbance is this small (d) and has grown when it is a thousand times larger: far
  * from where contacts open, slide or break. */
@@ -80,9 +388,8 @@ static bool run_verlet(const struct gb_stability_scene *scene, double step,
     const int64_t n = 3 * scene->model.count;
     const double speed = disturbance * scene->frequency;
     for (int64_t i = 0; i < n; i++) {
-        verlet.velocity[i] = speed * scene->mode[i] / gb_stability_scene_root(scene, i);
-        verlet.spin[i] =
-            speed * scene->mode[n + i] / gb_stability_scene_root(scene, n + i);
+        verlet.velocity[i] = speed * scene->mode[i] / stability_scene_root(scene, i);
+        verlet.spin[i] = speed * scene->mode[n + i] / stability_scene_root(scene, n + i);
     }
     const double first = gb_verlet_kinetic(&verlet);
     bool done = true;
@@ -101,7 +408,7 @@ static bool run_moves(const struct gb_stability_scene *scene,
                       double *growth, struct gb_error *err)
 {
     struct gb_relax *relax = data;
-    gb_stability_scene_move(scene, scene->mode, disturbance);
+    stability_scene_move(scene, scene->mode, disturbance);
     bool done = gb_relax_evaluate(relax, scene->world, err);
     const double first = unrest(scene);
     for (int i = 0; i < STEPS && done && *growth < grown; i++) {
@@ -278,7 +585,7 @@ bool gb_stability_measure(int index, struct gb_stability_row *row, struct gb_err
     struct gb_stability_scene scene;
     bool done = open_scene(index, &scene, err);
     if (done) {
-        const double exact = gb_stability_scene_exact(
+        const double exact = stability_scene_exact(
             &scene, (enum gb_stability_packing)(index / LAWS % SCENES),
             (enum gb_stability_law)(index % LAWS));
         *row = (struct gb_stability_row){
@@ -330,20 +637,21 @@ static double used_in_run(const struct gb_stability_scene *scene)
     motion.scratch =
         gb_alloc_array((size_t)scene->model.count, sizeof *motion.scratch, NULL);
     const double step =
-        motion.scratch
-            ? gb_dynamic_step_allowed(&motion, scene->world, text, sizeof text)
-            : (double)NAN;
+        motion.scratch ? gb_dynamic_step_allowed(&motion, scene->world, text, sizeof text)
+                       : (double)NAN;
     gb_alloc_free(motion.scratch);
     return step;
 }
 
-bool gb_stability_measure_world(int index, const struct gb_world *world,
-                                struct gb_stability_row *row, struct gb_error *err)
+/* Such a method at a copy of a world right after an evaluation, brought to rest.  Errors:
+ * those of gb_probe_create. */
+static bool stability_measure_world(int index, const struct gb_world *world,
+                                    struct gb_stability_row *row, struct gb_error *err)
 {
     const struct method *method = &methods[index];
     const bool in_time = method == of_time;
     struct gb_stability_scene scene;
-    bool done = gb_stability_scene_copy(&scene, world, method->inertia, method->power, err);
+    bool done = stability_scene_copy(&scene, world, method->inertia, method->power, err);
     if (done) {
         const double damping =
             in_time ? 0.5 * scene.model.dynamics.viscous * scene.frequency : 0.0;
@@ -361,4 +669,116 @@ bool gb_stability_measure_world(int index, const struct gb_world *world,
     }
     gb_stability_scene_finish(&scene);
     return done;
+}
+
+/* --- states of a run ------------------------------------------------------------------ */
+
+static const double default_pa[GB_STABILITY_RUN_POINTS] = {1e6, 10e6, 100e6};
+
+struct walk {
+    const struct gb_params *params;
+    const struct gb_stability_sink *sink;
+    int rows;
+    char why[160]; /* of the last state that was left out */
+};
+
+static bool is_in_use(const struct gb_stability_row *row,
+                      const struct gb_experiment *experiment)
+{
+    const struct gb_model *model = gb_experiment_model(experiment);
+    return gb_loading_kind_at(model->kind)->follows_time ||
+           strcmp(row->method, model->numerics.relaxer) == 0;
+}
+
+/* One that has no equilibrium near is told and left out. */
+static bool leave_out(struct walk *walk, double p_pa, const struct gb_error *err)
+{
+    g_strlcpy(walk->why, err->text, sizeof walk->why);
+    walk->sink->skipped(walk->sink->data, p_pa, walk->why);
+    return true;
+}
+
+static bool visit(void *data, const struct gb_experiment *experiment, unsigned what,
+                  struct gb_error *err)
+{
+    struct walk *walk = data;
+    const struct gb_point *point = gb_experiment_point(experiment);
+    int first = 0;
+    if (what & GB_KEEP_WALK_VISITED) {
+        return true;
+    }
+    const int count = gb_stability_methods(walk->params, &first);
+    for (int k = first; k < first + count; k++) {
+        struct gb_stability_row row;
+        struct gb_error own = {0};
+        if (!stability_measure_world(k, gb_experiment_world(experiment), &row, &own)) {
+            return own.code == GB_ERR_INPUT || own.code == GB_ERR_GUARD ||
+                           own.code == GB_ERR_NOT_CONVERGED
+                       ? leave_out(walk, point->p_pa, &own)
+                       : gb_error_set(err, own.code, "%s", own.text);
+        }
+        row.density = point->density;
+        row.p_pa = point->p_pa;
+        row.in_use = is_in_use(&row, experiment);
+        walk->rows++;
+        if (!walk->sink->row(walk->sink->data, &row, err)) {
+            return false;
+        }
+        if (walk->sink->cancelled && walk->sink->cancelled(walk->sink->data)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+        }
+    }
+    return true;
+}
+
+bool gb_stability_run(const struct gb_params *params, const struct gb_keep_points *points,
+                      const struct gb_stability_sink *sink, int *missed,
+                      struct gb_error *err)
+{
+    struct gb_params pressed = *params;
+    struct gb_keep_points usual = {.count = G_N_ELEMENTS(default_pa)};
+    struct walk walk = {.params = params, .sink = sink};
+    for (size_t k = 0; k < G_N_ELEMENTS(default_pa); k++) {
+        usual.point[k].value = default_pa[k];
+    }
+    pressed.unload_count = 0;
+    pressed.hold_s = 0.0;
+    const struct gb_keep_walk keep = {points ? points : &usual, visit, &walk,
+                                      sink->cancelled, sink->data};
+    if (!gb_loading_kind_check_cell(params, "stability", err) ||
+        !gb_keep_walk_run(&pressed, &keep, missed, err)) {
+        return false;
+    }
+    return walk.rows > 0 ||
+           gb_error_set(err, GB_ERR_INPUT, "no state could be measured: %s", walk.why);
+}
+
+bool gb_stability_stable(const struct gb_stability_row *row)
+{
+    return row->used <= row->measured;
+}
+
+GString *gb_stability_table(const char *comment)
+{
+    GString *csv = g_string_new(comment);
+    g_string_append(csv,
+                    "# longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
+                    "ratio: measured / theory; used: what the run takes; margin: "
+                    "measured / used\n"
+                    "method,p_MPa,density,damping,theory,measured,ratio,used,margin,"
+                    "stable,in_use\n");
+    return csv;
+}
+
+void gb_stability_add(GString *csv, const struct gb_stability_row *row)
+{
+    const double number[] = {1e-6 * row->p_pa, row->density,
+                             row->damping,     row->theory,
+                             row->measured,    row->measured / row->theory,
+                             row->used,        row->measured / row->used};
+    g_string_append(csv, row->method);
+    for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
+        g_string_append_printf(csv, ",%.8g", number[i]);
+    }
+    g_string_append_printf(csv, ",%d,%d\n", gb_stability_stable(row), row->in_use);
 }

@@ -5,7 +5,10 @@
 
 #include "greenbody/status.h"
 #include "measure/fit/fit.h"
-#include "study/yield/yield_options.h"
+#include "measure/yield_point.h"
+#include "scene/field/keep_points.h"
+
+enum { GB_YIELD_DIRECTIONS_MAX = 72, GB_YIELD_REPLICAS_MAX = 1000 };
 
 /* What a yield surface says in one number each.  Angles in degrees. */
 enum gb_yield_surface_quantity {

@@ -4,7 +4,7 @@
 
 #include "io/store.h"
 #include "many/sweep/sweep_target.h"
-#include "study/calibrate/free_keys.h"
+#include "study/calibrate/calibration.h"
 #include "tui/app/command/key_commands.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/session/run_lifecycle.h"
@@ -185,7 +185,7 @@ void gb_job_commands_accept_calibrate(struct gb_app *app)
         gb_dialog_close(dialog);
         return;
     }
-    if (!gb_free_keys_parse(&parsed, gb_dialog_answer(dialog), gb_session_params(session),
+    if (!gb_calibration_keys(&parsed, gb_dialog_answer(dialog), gb_session_params(session),
                             &err)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
         return;

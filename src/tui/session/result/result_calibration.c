@@ -4,7 +4,7 @@
 #include "base/read_file.h"
 #include "base/table.h"
 #include "io/preset.h"
-#include "study/calibrate/calibration_table.h"
+#include "study/calibrate/calibration.h"
 
 enum { BYTES_MAX = 1 << 20 };
 
@@ -19,7 +19,7 @@ static bool read_lines(struct gb_result_card *card)
     for (int i = 0; lines[i] != NULL; i++) {
         if (lines[i][0] != '\0') {
             gb_result_card_add(card,
-                               gb_calibration_table_warns(lines[i]) ? GB_RESULT_WARNING
+                               gb_calibration_warns(lines[i]) ? GB_RESULT_WARNING
                                                                     : GB_RESULT_VALUE,
                                "%s", g_strstrip(lines[i]));
         }

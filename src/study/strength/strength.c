@@ -1,14 +1,232 @@
-#include "study/strength/strength_study.h"
+/* Strength of compacts: each cell is pressed, its stresses are taken away, and copies are
+ * broken in tension, compression and shear.  Cells are measured by workers, into files of
+ * their own (study/compact/cells.h). */
+#include "study/strength/strength.h"
 
+#include <glib.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/table.h"
+#include "many/pool.h"
+#include "scene/field/keep_points.h"
+#include "scene/path/path.h"
 #include "scene/seed.h"
+#include "study/compact/cells.h"
 #include "study/compact/compact.h"
 #include "study/compact/study_text.h"
-#include "study/strength/strength_cell.h"
+
+/* --- options -------------------------------------------------------------------------- */
+
+enum { GB_STRENGTH_REPLICAS_MAX = 1000 };
+
+const struct gb_strength_test_row gb_strength_tests[GB_STRENGTH_TESTS] = {
+    [GB_STRENGTH_TENSION] = {"tension", "triaxial to -%g %% at x = y = 0 MPa", -1.0, 2},
+    [GB_STRENGTH_COMPRESSION] = {"compression", "triaxial to %g %% at x = y = 0 MPa", 1.0,
+                                 2},
+    [GB_STRENGTH_SHEAR] = {"shear", "shear xz to %g %% at z = 0 MPa", -1.0, 4},
+};
+
+void gb_strength_options_init(struct gb_strength_options *options)
+{
+    *options = (struct gb_strength_options){
+        .marks = {.count = 3, .point = {{false, 50e6}, {false, 100e6}, {false, 200e6}}},
+        .replicas = 8,
+        .step = 1e-3,
+        .strain_most = 0.1,
+        .fall = 0.6,
+        .tolerance = 3e-3,
+    };
+}
+
+/* Errors: GB_ERR_INPUT naming the option and what is accepted. */
+static bool strength_cell_check(const struct gb_strength_options *options,
+                                struct gb_error *err)
+{
+    if (options->replicas < 1 || options->replicas > GB_STRENGTH_REPLICAS_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT, "--replicas %d: must be between 1 and %d",
+                            options->replicas, GB_STRENGTH_REPLICAS_MAX);
+    }
+    return (options->marks.count > 0 && options->marks.every == 0) ||
+           gb_error_set(
+               err, GB_ERR_INPUT,
+               "--at: accepted pressures and densities, as in '50 MPa; 100 MPa'");
+}
+
+/* Members that a worker needs. */
+static const struct gb_cells_number numbers[] = {
+    {"step", offsetof(struct gb_strength_options, step)},
+    {"strain_most", offsetof(struct gb_strength_options, strain_most)},
+    {"fall", offsetof(struct gb_strength_options, fall)},
+    {"tolerance", offsetof(struct gb_strength_options, tolerance)},
+};
+
+/* For the question of a cell (study/compact/cells.h) and back. */
+static void strength_cell_write(const struct gb_strength_options *options,
+                                const struct gb_keep_point *mark, GString *text)
+{
+    gb_cells_write(text, mark, options, numbers, G_N_ELEMENTS(numbers));
+}
+
+static void strength_options_read(struct gb_strength_options *options,
+                                  struct gb_keep_point *mark, GKeyFile *question)
+{
+    gb_strength_options_init(options);
+    gb_cells_read(question, mark, options, numbers, G_N_ELEMENTS(numbers));
+}
+
+/* --- one cell, in a worker ------------------------------------------------------------ */
+
+/* A cell at work. */
+struct cell {
+    const struct gb_strength_options *options;
+    const struct gb_pool_callbacks *callbacks;
+    struct gb_compact top, free;
+    struct gb_strength_broken *broken; /* of each test */
+    GString *rows;                     /* NULL: not wanted */
+};
+
+/* A test without points, and one point more of it. */
+static struct gb_strength_broken strength_cell_unbroken(void)
+{
+    return (struct gb_strength_broken){NAN, -INFINITY, NAN, NAN, NAN};
+}
+
+static void strength_cell_break(struct gb_strength_broken *test, double strain,
+                                double stress_pa, double density, double broken)
+{
+    if (stress_pa > test->strength) {
+        *test = (struct gb_strength_broken){density, stress_pa, strain, broken, broken};
+    }
+    test->at_end = broken;
+}
+
+/* A test under way. */
+struct breaking {
+    struct cell *cell;
+    enum gb_strength_test test;
+    double peak;
+};
+
+/* Bridged pairs of a point, per particle and half. */
+static double bridges(const struct gb_point *point)
+{
+    return point->bridged * point->coordination;
+}
+
+static double stress_of(enum gb_strength_test test, const struct gb_point *point)
+{
+    const double pressure = test == GB_STRENGTH_SHEAR ? point->shear_pa[1] : point->pz_pa;
+    return gb_strength_tests[test].sense * pressure;
+}
+
+static double strain_of(enum gb_strength_test test, const struct cell *cell,
+                        const struct gb_point *point)
+{
+    const int k = gb_strength_tests[test].component;
+    const double strain = point->strain[k] - cell->free.point.strain[k];
+    return test == GB_STRENGTH_TENSION ? -strain : strain;
+}
+
+static void add_row(struct breaking *breaking, const struct gb_point *point)
+{
+    const struct cell *cell = breaking->cell;
+    const double all = bridges(&cell->free.point);
+    const double number[] = {breaking->test, strain_of(breaking->test, cell, point),
+                             stress_of(breaking->test, point), cell->free.point.density,
+                             all > 0.0 ? 1.0 - bridges(point) / all : (double)NAN};
+    strength_cell_break(&cell->broken[breaking->test], number[1], number[2], number[3],
+                        number[4]);
+    if (cell->rows != NULL) {
+        gb_study_text_numbers(cell->rows, number, G_N_ELEMENTS(number));
+    }
+}
+
+/* Beyond the peak when the stress has fallen enough. */
+static bool take(void *data, const struct gb_point *point)
+{
+    struct breaking *breaking = data;
+    const double stress = stress_of(breaking->test, point);
+    if (point->leg >= 2.0) { /* behind the test */
+        return false;
+    }
+    add_row(breaking, point);
+    breaking->peak = fmax(breaking->peak, stress);
+    return !(breaking->peak > 0.0 &&
+             stress < breaking->cell->options->fall * breaking->peak &&
+             strain_of(breaking->test, breaking->cell, point) >
+                 10.0 * breaking->cell->options->step);
+}
+
+static bool break_one(struct cell *cell, enum gb_strength_test test, struct gb_error *err)
+{
+    char leg[GB_LEG_TEXT];
+    struct gb_error why = {0};
+    struct breaking breaking = {cell, test, 0.0};
+    const struct gb_compact_walk walk = {take, &breaking, cell->callbacks};
+    add_row(&breaking, &cell->free.point);
+    snprintf(leg, sizeof leg, gb_strength_tests[test].leg,
+             100.0 * cell->options->strain_most);
+    return gb_compact_follow(&cell->free, leg, cell->options->step, &walk, NULL, &why) !=
+               GB_COMPACT_FAILED ||
+           gb_error_set(err, why.code, "%s", why.text);
+}
+
+bool gb_strength_measure(struct gb_strength_broken test[GB_STRENGTH_TESTS],
+                         const struct gb_params *params, const struct gb_keep_point *mark,
+                         const struct gb_strength_options *options, GString *rows,
+                         const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    struct cell cell = {
+        .options = options, .callbacks = callbacks, .broken = test, .rows = rows};
+    cell.top.sheared = true;
+    bool good = gb_compact_press(&cell.top, params, mark, callbacks, err);
+    cell.top.tolerance = options->tolerance;
+    good = good && gb_compact_unload(&cell.top, 0.0, callbacks, &cell.free, err);
+    if (rows != NULL) {
+        g_string_append(rows, "test,strain,stress_Pa,density,broken\n");
+    }
+    for (int t = 0; t < GB_STRENGTH_TESTS && good; t++) {
+        test[t] = strength_cell_unbroken();
+        good = break_one(&cell, (enum gb_strength_test)t, err);
+    }
+    gb_compact_finish(&cell.free);
+    gb_compact_finish(&cell.top);
+    return good;
+}
+
+/* One compact of one cell, as the work of a pool: pressed, all stresses taken away, and
+ * broken in each test on a copy.
+ *
+ * path  of the cell without ending: PATH.ini is the question, PATH.csv receives a row per
+ *       recorded point of each test: test, strain, stress in Pa, density of the compact,
+ *       share of its bridges that are broken */
+static bool strength_cell_work(const struct gb_params *params, const char *path,
+                               const struct gb_pool_callbacks *callbacks,
+                               struct gb_error *err)
+{
+    GKeyFile *question = NULL;
+    struct gb_strength_options options;
+    struct gb_keep_point mark;
+    struct gb_strength_broken test[GB_STRENGTH_TESTS];
+    struct gb_lock lock;
+    if (!gb_cells_question(&question, &lock, path, err)) {
+        return false;
+    }
+    strength_options_read(&options, &mark, question);
+    g_key_file_free(question);
+    GString *rows = g_string_new(NULL);
+    const bool good =
+        gb_strength_measure(test, params, &mark, &options, rows, callbacks, err) &&
+        gb_cells_answer(path, ".csv", rows, err);
+    g_string_free(rows, TRUE);
+    gb_lock_release(&lock);
+    return good;
+}
+
+/* --- all cells ------------------------------------------------------------------------ */
 
 /* Peak of the curve of a test. */
 static struct gb_strength_broken read_test(const struct gb_table *table, int test)
@@ -18,10 +236,10 @@ static struct gb_strength_broken read_test(const struct gb_table *table, int tes
     const double *stress = gb_table_column(table, "stress_Pa", NULL);
     const double *density = gb_table_column(table, "density", NULL);
     const double *broken = gb_table_column(table, "broken", NULL);
-    struct gb_strength_broken found = gb_strength_cell_unbroken();
+    struct gb_strength_broken found = strength_cell_unbroken();
     for (size_t i = 0; i < gb_table_rows(table); i++) {
         if (which[i] == test) {
-            gb_strength_cell_break(&found, strain[i], stress[i], density[i], broken[i]);
+            strength_cell_break(&found, strain[i], stress[i], density[i], broken[i]);
         }
     }
     return found;
@@ -92,7 +310,7 @@ static void add_curves(struct gb_strength_study *study, const struct gb_keep_poi
                                  1e-6 * column[1][i],
                                  100.0 * column[2][i]};
         g_string_append_printf(study->curves, "%s,",
-                               gb_strength_options_tests[(int)test[i]].name);
+                               gb_strength_tests[(int)test[i]].name);
         gb_study_text_numbers(study->curves, number, G_N_ELEMENTS(number));
     }
 }
@@ -174,19 +392,17 @@ static void add_cells(struct gb_cells *cells, const struct gb_params *params,
         for (int m = 0; m < options->marks.count; m++) {
             const struct gb_keep_point *mark = &options->marks.point[m];
             GString *text = g_string_new("study=strength\n");
-            gb_strength_options_write(options, mark, text);
+            strength_cell_write(options, mark, text);
             gb_cells_add(cells, &own, gb_cells_name(mark, c), text->str);
             g_string_free(text, TRUE);
         }
     }
 }
 
-bool gb_strength_study_run(struct gb_strength_study *study,
-                           const struct gb_params *preset,
-                           const struct gb_strength_options *options,
-                           const char *directory, int jobs,
-                           const struct gb_cells_callbacks *callbacks,
-                           struct gb_error *err)
+bool gb_strength_run(struct gb_strength_study *study, const struct gb_params *preset,
+                     const struct gb_strength_options *options, const char *directory,
+                     int jobs, const struct gb_cells_callbacks *callbacks,
+                     struct gb_error *err)
 {
     struct gb_cells cells = {0};
     struct gb_params params;
@@ -194,7 +410,7 @@ bool gb_strength_study_run(struct gb_strength_study *study,
         .options = *options,
         .result = g_array_new(FALSE, FALSE, sizeof(struct gb_strength_result)),
         .curves = g_string_new(NULL)};
-    if (!gb_strength_options_check(options, err) ||
+    if (!strength_cell_check(options, err) ||
         !gb_seed_check_cells(preset, (size_t)options->replicas, err) ||
         !gb_compact_params(&params, preset, err) ||
         !gb_cells_init(&cells, directory, err)) {
@@ -202,14 +418,13 @@ bool gb_strength_study_run(struct gb_strength_study *study,
         return false;
     }
     add_cells(&cells, &params, options);
-    const bool good =
-        gb_cells_work(&cells, jobs, gb_strength_cell_work, callbacks, err) &&
-        conclude(study, &cells, err);
+    const bool good = gb_cells_work(&cells, jobs, strength_cell_work, callbacks, err) &&
+                      conclude(study, &cells, err);
     gb_cells_finish(&cells);
     return good;
 }
 
-void gb_strength_study_finish(struct gb_strength_study *study)
+void gb_strength_finish(struct gb_strength_study *study)
 {
     if (study->result != NULL) {
         g_array_unref(study->result);
@@ -217,6 +432,8 @@ void gb_strength_study_finish(struct gb_strength_study *study)
     }
     memset(study, 0, sizeof *study);
 }
+
+/* --- tables and page ------------------------------------------------------------------ */
 
 static GString *table(const struct gb_strength_study *study, const char *comment)
 {
@@ -246,7 +463,7 @@ static GString *table(const struct gb_strength_study *study, const char *comment
                                  1e-6 * r->weibull.scale,
                                  100.0 * r->broken_at_peak_error,
                                  100.0 * r->broken_at_end_error};
-        g_string_append_printf(text, "%s,", gb_strength_options_tests[r->test].name);
+        g_string_append_printf(text, "%s,", gb_strength_tests[r->test].name);
         gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
     }
     return text;
@@ -278,7 +495,7 @@ static GString *page(const struct gb_strength_study *study, const char *title,
         g_string_append_printf(text, "| %g%s | %s",
                                r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
                                r->mark.by_density ? "" : " MPa",
-                               gb_strength_options_tests[r->test].name);
+                               gb_strength_tests[r->test].name);
         gb_study_text_value(text, " | ", &strength, 1e-6);
         gb_study_text_value(text, " | ", &strain, 100.0);
         gb_study_text_value(text, " | ", &broken, 100.0);
@@ -291,8 +508,8 @@ static GString *page(const struct gb_strength_study *study, const char *title,
     return text;
 }
 
-bool gb_strength_study_write(const struct gb_strength_study *study, const char *directory,
-                             const char *title, const char *command, struct gb_error *err)
+bool gb_strength_write(const struct gb_strength_study *study, const char *directory,
+                       const char *title, const char *command, struct gb_error *err)
 {
     char *comment = g_strdup_printf("preset: %s\ncommand: %s", title, command);
     GString *curves = g_string_new(NULL);
