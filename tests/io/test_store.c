@@ -13,8 +13,8 @@
 #include "io/follow.h"
 #include "io/preset.h"
 #include "io/rundir.h"
-#include "io/status/status_json.h"
 #include "io/rundir_files.h"
+#include "io/status/status_json.h"
 #include "io/store.h"
 
 static char *base; /* a folder of its own for each test */
@@ -404,6 +404,40 @@ static void test_foreign_status(void)
     g_free(path);
 }
 
+/* Numbers of any size are valid JSON and keep their bits; strings keep their characters. */
+static void test_json_numbers(void)
+{
+    static const double value[] = {1e-8, -2e-7, 1e22, 5e-324, 1.5e-9, 0.25, 3.0, 1e15};
+    static const char word[] = "1e-08.0 \"2e-07.0\" \\";
+    JsonBuilder *json = json_builder_new();
+    json_builder_begin_array(json);
+    json_builder_add_string_value(json, word);
+    for (size_t i = 0; i < G_N_ELEMENTS(value); i++) {
+        json_builder_add_double_value(json, value[i]);
+    }
+    json_builder_add_boolean_value(json, true);
+    json_builder_end_array(json);
+    JsonNode *root = json_builder_get_root(json);
+    char *text = gb_status_json_print(root);
+    json_node_unref(root);
+    g_object_unref(json);
+    char **part = g_strsplit(strrchr(text, '"') + 1, ",", -1);
+    g_assert_cmpuint(g_strv_length(part), ==, G_N_ELEMENTS(value) + 2);
+    for (size_t i = 0; i < G_N_ELEMENTS(value); i++) {
+        const char *number = g_strstrip(part[i + 1]);
+        g_assert_true(g_regex_match_simple(
+            "^-?(0|[1-9][0-9]*)(\\.[0-9]+)?(e[+-]?[0-9]+)?$", number, 0, 0));
+        g_assert_cmpfloat(g_ascii_strtod(number, NULL), ==, value[i]);
+    }
+    root = json_from_string(text, NULL);
+    g_assert_nonnull(root);
+    g_assert_cmpstr(json_array_get_string_element(json_node_get_array(root), 0), ==,
+                    word);
+    json_node_unref(root);
+    g_strfreev(part);
+    g_free(text);
+}
+
 /* A process named by a forged or old status.json is not asked to stop, unless it has the
  * directory open; one that has is. */
 static void test_named_process(void)
@@ -497,6 +531,7 @@ int main(int argc, char **argv)
         {"/store/preset", test_preset},
         {"/store/status", test_status},
         {"/store/foreign-status", test_foreign_status},
+        {"/store/json-numbers", test_json_numbers},
         {"/store/existing", test_existing},
         {"/store/named-process", test_named_process},
         {"/store/busy-probe", test_busy_probe},

@@ -57,13 +57,15 @@ static void check_axis(const struct gb_quantity_study *study, int a)
 static void test_table(void)
 {
     int rows = 0;
-    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities();
+         row->name != NULL; row++) {
         struct gb_error err = {0};
         const struct gb_params params = scene_of(row->study);
         g_assert_true(find(row->name) == row); /* names are unique */
         g_assert_true(row->unit[0] != '\0' && row->meaning[0] != '\0');
         g_assert_cmpint(row->index, <, GB_QUANTITY_VALUES);
-        for (const struct gb_quantity *other = gb_quantity_chart_quantities(); other < row; other++) {
+        for (const struct gb_quantity *other = gb_quantity_chart_quantities();
+             other < row; other++) {
             g_assert_true(other->study != row->study || other->index != row->index);
         }
         g_assert_true(row->study->check(&params, &err));
@@ -170,7 +172,8 @@ static void test_scenes(void)
     struct gb_error err = {0};
     const struct gb_params cell = scene_of(find("E")->study);
     const struct gb_params die = scene_of(find("residual_stress")->study);
-    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities();
+         row->name != NULL; row++) {
         const bool of_die = strcmp(row->study->name, "die") == 0;
         g_assert_false(row->study->check(of_die ? &cell : &die, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
@@ -278,6 +281,39 @@ static void test_known(void)
     g_free(directory);
 }
 
+/* Numbers that are not known yet are "-": without cells of the default no row has a cost. */
+static void test_unknown(void)
+{
+    static const char *const vary[] = {"numerics.tolerance=0.001,0.002", NULL};
+    char *directory = g_build_filename(folder, "unknown", NULL);
+    for (int known = 0; known < 3; known++) {
+        struct gb_quantity_chart chart = chart_of("E", vary, NULL, SEEDS, directory);
+        struct gb_quantity_table table;
+        if (known == 1) {
+            answers(&chart, 2, 0.1, 0.01, 1.0);
+        } else if (known == 2) {
+            answers(&chart, 0, 0.0, 0.0, 40.0);
+        }
+        gb_quantity_chart_finish(&chart);
+        chart = chart_of("E", vary, NULL, SEEDS, directory);
+        for (int limited = 0; limited < 2; limited++) {
+            gb_quantity_chart_table_init(&table, &chart, find("E"), limited ? 1.0 : NAN);
+            GString *text = gb_quantity_chart_table_text(&table);
+            GString *csv = gb_quantity_chart_table_csv(&table, "");
+            g_test_message("%s", text->str);
+            g_assert_false(g_regex_match_simple("\\b(nan|inf)\\b", text->str, 0, 0));
+            g_assert_false(g_regex_match_simple("\\b(nan|inf)\\b", csv->str, 0, 0));
+            g_assert_null(strstr(text->str, "(- times"));
+            g_assert_true(known == 0 || strstr(text->str, "      -      4") != NULL);
+            g_string_free(csv, TRUE);
+            g_string_free(text, TRUE);
+            gb_quantity_chart_table_finish(&table);
+        }
+        gb_quantity_chart_finish(&chart);
+    }
+    g_free(directory);
+}
+
 static bool at_once(void *data)
 {
     (void)data;
@@ -325,6 +361,7 @@ int main(int argc, char **argv)
     g_test_add_func("/quantities/plan", test_plan);
     g_test_add_func("/quantities/scenes", test_scenes);
     g_test_add_func("/quantities/known", test_known);
+    g_test_add_func("/quantities/unknown", test_unknown);
     g_test_add_func("/quantities/work", test_work);
     const int status = g_test_run();
     remove_tree(folder);

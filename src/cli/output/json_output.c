@@ -10,7 +10,7 @@
 
 static void print_node(JsonNode *root)
 {
-    char *text = json_to_string(root, TRUE);
+    char *text = gb_status_json_print(root);
     gb_visible_print(stdout, "%s\n", text);
     g_free(text);
 }

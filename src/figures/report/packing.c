@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "io/preset.h"
+#include "io/status/status_json.h"
 
 static void append_number(GString *text, double value, char end)
 {
@@ -119,7 +120,7 @@ static GString *structure_text(const struct gb_packing *packing)
     json_builder_add_string_value(builder, seed);
     add_integer(builder, "dimension", state->dimension);
     add_integer(builder, "particles", state->count);
-    /* nm, rounded to 1e-6 nm: json-glib writes 1e-08 as "1e-08.0", which is invalid */
+    /* nm, rounded to 1e-6 nm */
     add_number(builder, "diameter_nm", rint(state->metre_per_length * 1e15) / 1e6);
     add_number(builder, "density", state->point.density);
     add_number(builder, "touching_distance_d", packing->r_eq);
@@ -130,7 +131,7 @@ static GString *structure_text(const struct gb_packing *packing)
     add_number(builder, "g_end_to_d", packing->r_max);
     json_builder_end_object(builder);
     JsonNode *root = json_builder_get_root(builder);
-    char *json = json_to_string(root, TRUE);
+    char *json = gb_status_json_print(root);
     GString *text = g_string_new(json);
     g_string_append_c(text, '\n');
     g_free(json);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "io/status/status_json.h"
 
 char *gb_export_series_name(const char *path, int64_t index)
 {
@@ -49,7 +50,7 @@ bool gb_export_series_put_list(const char *path, const int64_t *steps, int64_t c
     json_builder_end_array(builder);
     json_builder_end_object(builder);
     JsonNode *root = json_builder_get_root(builder);
-    char *text = json_to_string(root, TRUE);
+    char *text = gb_status_json_print(root);
     char *name = gb_export_series_list_name(path);
     const bool done = gb_file_replace(name, text, strlen(text), err);
     g_free(name);

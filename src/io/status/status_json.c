@@ -83,13 +83,30 @@ enum gb_run_state gb_status_json_state(const char *word)
     return GB_RUN_STOPPED;
 }
 
-/* json-glib writes 1e-08 as "1e-08.0", which no reader accepts.  The next double has more
- * digits and a point, and goes through. */
-static double writable(double value)
+/* json-glib appends ".0" to a number without a point, also to one with an exponent.  Outside
+ * strings this is the only place where digits that follow an 'e' are followed by a point. */
+char *gb_status_json_print(JsonNode *root)
 {
-    char text[G_ASCII_DTOSTR_BUF_SIZE];
-    g_ascii_dtostr(text, sizeof text, value);
-    return strchr(text, 'e') && !strchr(text, '.') ? nextafter(value, INFINITY) : value;
+    char *text = json_to_string(root, TRUE);
+    char *to = text;
+    bool quoted = false, exponent = false;
+    for (const char *from = text; *from != '\0'; from++) {
+        if (*from == '"') {
+            quoted = !quoted;
+        }
+        if (!quoted && exponent && *from == '.') {
+            from++;
+            continue;
+        }
+        exponent = !quoted &&
+                   (*from == 'e' || (exponent && strchr("+-0123456789", *from) != NULL));
+        *to++ = *from;
+        if (quoted && *from == '\\') {
+            *to++ = *++from;
+        }
+    }
+    *to = '\0';
+    return text;
 }
 
 /* A number, or null where it is not finite. */
@@ -97,7 +114,7 @@ static void add_double(JsonBuilder *json, const char *name, double value)
 {
     json_builder_set_member_name(json, name);
     if (isfinite(value)) {
-        json_builder_add_double_value(json, writable(value));
+        json_builder_add_double_value(json, value);
     } else {
         json_builder_add_null_value(json);
     }
@@ -125,7 +142,7 @@ static void add_array(JsonBuilder *json, const char *name, const double *values,
     json_builder_begin_array(json);
     for (int k = 0; k < count; k++) {
         if (isfinite(values[k])) {
-            json_builder_add_double_value(json, writable(values[k]));
+            json_builder_add_double_value(json, values[k]);
         } else {
             json_builder_add_null_value(json);
         }
@@ -191,7 +208,7 @@ char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points)
     add_text(json, "error", snapshot->error.code == GB_OK ? "" : snapshot->error.text);
     json_builder_end_object(json);
     JsonNode *root = json_builder_get_root(json);
-    char *text = json_to_string(root, TRUE);
+    char *text = gb_status_json_print(root);
     char *whole = g_strconcat(text, "\n", NULL);
     g_free(text);
     json_node_unref(root);

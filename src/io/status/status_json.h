@@ -6,6 +6,10 @@
 #include "greenbody/snapshot.h"
 #include "greenbody/status.h"
 
+/* The text of a tree, indented; g_free.  Every number is valid JSON: json-glib alone writes
+ * 1e-08 as "1e-08.0". */
+char *gb_status_json_print(JsonNode *root);
+
 /* Text of status.json; g_free.
  *
  * points   recorded so far */

@@ -62,29 +62,6 @@ static void respond(struct gb_tangent *tangent, const double pressure[3][3],
     }
 }
 
-bool gb_moduli_tangent(double c[6][6], const struct gb_world *world, struct gb_error *err)
-{
-    const size_t numbers = 6 * (size_t)gb_world_model(world)->count;
-    const int dimension = gb_world_model(world)->dimension;
-    struct gb_tangent *tangent = NULL;
-    double pressure[3][3];
-    double *force = gb_alloc_array(numbers, sizeof *force, err);
-    double *motion = gb_alloc_array(numbers, sizeof *motion, err);
-    const bool done = force && motion && gb_tangent_create(&tangent, world, err);
-    memset(c, 0, 36 * sizeof **c);
-    gb_world_measure_pressure(world, pressure);
-    for (int k = 0; k < COMPONENTS && done; k++) {
-        if (exists(dimension, k)) {
-            respond(tangent, (const double(*)[3])pressure,
-                    gb_cell_volume(gb_world_cell(world)), k, force, motion, c);
-        }
-    }
-    gb_tangent_destroy(tangent);
-    gb_alloc_free(force);
-    gb_alloc_free(motion);
-    return done;
-}
-
 /* Column k of C by central differences at a strain; slope: motion per strain, the first
  * guess of both sides. */
 static bool probe_column(struct gb_probe *probe, int k, double size, const double *slope,

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/number.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/params.h"
@@ -1191,25 +1192,28 @@ GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
 static void add_row(GString *text, const struct gb_quantity_table *table, guint i)
 {
     const struct gb_quantity_result *row = gb_quantity_chart_table_at(table, i);
-    char setting[DESCRIPTION], deviation[64] = "", share[16] = "";
+    char setting[DESCRIPTION], deviation[64] = "", share[GB_NUMBER_MAX] = "";
+    char number[GB_NUMBER_MAX];
     if (i == 0) {
-        snprintf(deviation, sizeof deviation, "value %.4g", row->value);
+        snprintf(deviation, sizeof deviation, "value %s",
+                 gb_number_shown("%.4g", row->value, number));
     } else if (row->failed > 0) {
         snprintf(deviation, sizeof deviation, "%d of %d failed", row->failed, row->seeds);
     } else if (!isfinite(row->bound)) {
         snprintf(deviation, sizeof deviation, "needs 2 seeds");
     } else {
         snprintf(deviation, sizeof deviation, "%+.3g ± %.2g", row->error, row->error_95);
-        snprintf(share, sizeof share, "%.2f", row->bound / table->half_interval);
+        gb_number_shown("%.2f", row->bound / table->half_interval, share);
     }
     const int wide = (int)(strlen(deviation) - (size_t)g_utf8_strlen(deviation, -1));
     g_string_append_printf(
-        text, "%c%c%c%c %7.3g  %5.2f  %5d  %-*s  %5s  %s\n",
+        text, "%c%c%c%c %7.3g  %5s  %5d  %-*s  %5s  %s\n",
         i == 0   ? 'R'
         : i == 1 ? 'D'
                  : ' ',
         row->front ? 'F' : ' ', row->noise_limited ? 'n' : ' ', row->chosen ? '*' : ' ',
-        row->cpu_s, row->cost, row->seeds, 20 + wide, deviation, share,
+        row->cpu_s, gb_number_shown("%.2f", row->cost, number), row->seeds, 20 + wide,
+        deviation, share,
         describe(table->quantity->study, &row->setting, setting, sizeof setting));
 }
 
@@ -1218,7 +1222,7 @@ GString *gb_quantity_chart_table_text(const struct gb_quantity_table *table)
     const struct gb_quantity *quantity = table->quantity;
     const bool unit = strcmp(quantity->unit, "1") != 0;
     GString *text = g_string_new(NULL);
-    char setting[DESCRIPTION];
+    char setting[DESCRIPTION], number[GB_NUMBER_MAX];
     g_string_append_printf(text, "%s%s%s, %s (%s)\n", quantity->name, unit ? ", " : "",
                            unit ? quantity->unit : "", quantity->meaning,
                            quantity->study->name);
@@ -1238,8 +1242,9 @@ GString *gb_quantity_chart_table_text(const struct gb_quantity_table *table)
         g_string_append(text, "two seeds of a setting are needed for an interval\n");
         return text;
     }
-    g_string_append_printf(text, "half of the 95 %% interval of %d cells: %.3g\n",
-                           quantity->study->cells, table->half_interval);
+    g_string_append_printf(text, "half of the 95 %% interval of %d cells: %s\n",
+                           quantity->study->cells,
+                           gb_number_shown("%.3g", table->half_interval, number));
     const struct gb_quantity_result *chosen = gb_quantity_chart_table_chosen(table);
     if (chosen == NULL) {
         g_string_append_printf(
@@ -1249,12 +1254,14 @@ GString *gb_quantity_chart_table_text(const struct gb_quantity_table *table)
             table->allowed);
     } else {
         g_string_append_printf(
-            text,
-            "cheapest setting that deviates by less than %.3g: %s (%.2g times the "
-            "default's time%s)\n",
-            table->allowed,
-            describe(quantity->study, &chosen->setting, setting, sizeof setting),
-            chosen->cost, chosen->cost > cost_most ? ", which is more than three" : "");
+            text, "cheapest setting that deviates by less than %.3g: %s", table->allowed,
+            describe(quantity->study, &chosen->setting, setting, sizeof setting));
+        if (isfinite(chosen->cost)) {
+            g_string_append_printf(
+                text, " (%.2g times the default's time%s)", chosen->cost,
+                chosen->cost > cost_most ? ", which is more than three" : "");
+        }
+        g_string_append_c(text, '\n');
     }
     return text;
 }
