@@ -3,6 +3,7 @@
 
 #include "many/runset.h"
 #include "measure/fit/average.h"
+#include "measure/fit/fit.h"
 
 /* One branch of the runs of a group and its mean. */
 struct gb_mean_curves {
@@ -10,13 +11,12 @@ struct gb_mean_curves {
     size_t count;
 };
 
-enum { GB_MEAN_CURVES_GRID = 4000 }; /* most points of a mean */
-
 /* Columns x and y of curve.csv; gb_mean_curves_finish is due in any case.  Errors: those of
  * gb_runset_points. */
 bool gb_mean_curves_read(struct gb_mean_curves *curves, const struct gb_runset *set,
                          size_t group, const char *branch, const char *x, const char *y,
                          struct gb_error *err);
+
 void gb_mean_curves_finish(struct gb_mean_curves *curves); /* zeroed is fine */
 
 /* Mean of the first `members` curves where all have a value, on the x of all of them.
@@ -24,5 +24,15 @@ void gb_mean_curves_finish(struct gb_mean_curves *curves); /* zeroed is fine */
  * GB_ERR_MEMORY. */
 bool gb_mean_curves_mean(const struct gb_average_curve *curves, size_t members,
                          double **x, double **y, size_t *count, struct gb_error *err);
+
+/* Pressure of the runs of a group while the strain is held: x is t in ns from the end of
+ * compression, y is p in MPa.  gb_mean_curves_finish is due in any case.  Errors: those of
+ * gb_runset_points. */
+bool gb_mean_curves_relaxation(struct gb_mean_curves *curves, const struct gb_runset *set,
+                               size_t group, struct gb_error *err);
+
+/* P2 (4) fitted to the mean of the first `members` curves. */
+bool gb_mean_curves_decay(struct gb_fit_decay *fit, const struct gb_average_curve *curves,
+                          size_t members, struct gb_error *err);
 
 #endif

@@ -1,16 +1,249 @@
+/* A pool of worker processes: each takes one run after the other over a socket and answers
+ * with a message of one byte when its run is loaded, and with an error when it has ended. */
 #include "many/pool.h"
 
+#include <errno.h>
+#include <glib.h>
+#include <limits.h>
 #include <math.h>
 #include <poll.h>
-
-#include <glib.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/alloc.h"
-#include "many/worker.h"
+#include "base/clock.h"
+#include "greenbody/params.h"
+
+/* --- in the process of a worker ------------------------------------------------------- */
+
+/* Message to a worker: parameters, and the name of the directory at its own length. */
+struct run_message {
+    struct gb_params params;
+    char directory[PATH_MAX];
+};
+
+/* SIGTERM stays blocked; it is polled between two slices. */
+static bool is_cancelled(void *data)
+{
+    sigset_t pending;
+    (void)data;
+    return sigpending(&pending) == 0 && sigismember(&pending, SIGTERM) == 1;
+}
+
+/* Waits for the next run; false when the pool has closed the socket. */
+static bool receive_run(int fd, struct run_message *message)
+{
+    ssize_t got = 0;
+    do {
+        got = recv(fd, message, sizeof *message, 0);
+    } while (got < 0 && errno == EINTR);
+    return got > (ssize_t)sizeof message->params;
+}
+
+/* A message of one byte: a report is longer. */
+static void send_loaded(void *data)
+{
+    const int *fd = data;
+    (void)!send(*fd, "", 1, MSG_NOSIGNAL);
+}
+
+/* The worker's loop; never returns.  The terminal sends SIGINT to all processes: workers
+ * ignore it, the parent handles it and sends SIGTERM. */
+static void serve(gb_pool_work *work, pid_t parent, int fd)
+{
+    struct run_message *message = gb_alloc_array(1, sizeof *message, NULL);
+    const struct gb_pool_callbacks callbacks = {is_cancelled, send_loaded, &fd};
+    signal(SIGINT, SIG_IGN);
+    signal(SIGHUP, SIG_IGN);
+    (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
+    while (message != NULL && getppid() == parent && receive_run(fd, message)) {
+        struct gb_error error = {0};
+        (void)work(&message->params, message->directory, &callbacks, &error);
+        (void)!send(fd, &error, sizeof error, MSG_NOSIGNAL);
+    }
+    _exit(0);
+}
+
+/* --- a worker, in the process of the pool --------------------------------------------- */
+
+/* One process of a pool, which does the runs sent to it one after the other.  All zero but
+ * fd = -1: no process. */
+struct worker {
+    pid_t pid; /* 0: none yet */
+    int fd;    /* socket: runs to the worker, reports from it; -1: none */
+    bool busy, stopped;
+    bool writing; /* busy, but its run is loaded and only files are being written */
+    size_t ticket;
+    double since; /* s, of the monotonic clock */
+};
+
+static pid_t fork_worker(const struct worker *worker, size_t count, gb_pool_work *work,
+                         const int ends[2])
+{
+    sigset_t term, before;
+    const pid_t parent = getpid();
+    sigemptyset(&term);
+    sigaddset(&term, SIGTERM);
+    sigprocmask(SIG_BLOCK, &term, &before); /* before the fork: none is lost */
+    const pid_t pid = fork();
+    if (pid == 0) {
+        close(ends[0]);
+        /* an inherited socket would hide the end of the pool from the other workers */
+        for (size_t i = 0; i < count; i++) {
+            if (worker[i].fd >= 0) {
+                close(worker[i].fd);
+            }
+        }
+        serve(work, parent, ends[1]);
+    }
+    const int why = errno;
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    errno = why;
+    return pid;
+}
+
+static bool begin(struct worker *worker, size_t count, size_t index, gb_pool_work *work,
+                  struct gb_error *err)
+{
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "no socket to a worker: %s",
+                            strerror(errno));
+    }
+    const pid_t pid = fork_worker(worker, count, work, ends);
+    const int why = errno;
+    close(ends[1]);
+    if (pid < 0) {
+        close(ends[0]);
+        return gb_error_set(err, GB_ERR_MACHINE, "no process for a worker: %s",
+                            strerror(why));
+    }
+    worker[index] = (struct worker){.pid = pid, .fd = ends[0]};
+    return true;
+}
+
+/* Sends a run as one message; false when the process is gone. */
+static bool send_run(const struct worker *worker, const struct gb_params *params,
+                     const char *directory)
+{
+    struct iovec part[] = {{(void *)params, sizeof *params},
+                           {(void *)directory, strlen(directory) + 1}};
+    const struct msghdr message = {.msg_iov = part,
+                                   .msg_iovlen = sizeof part / sizeof part[0]};
+    ssize_t sent = 0;
+    do {
+        sent = sendmsg(worker->fd, &message, MSG_NOSIGNAL);
+    } while (sent < 0 && errno == EINTR);
+    return sent >= 0;
+}
+
+static int wait_for_exit(const struct worker *worker)
+{
+    int status = 0;
+    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+static void set_exit_error(int status, struct gb_error *error)
+{
+    if (WIFSIGNALED(status)) {
+        gb_error_set(error, GB_ERR_MACHINE, "the process of the run was ended by %s",
+                     strsignal(WTERMSIG(status)));
+    } else {
+        gb_error_set(error, GB_ERR_MACHINE, "the process of the run left no report");
+    }
+}
+
+/* Ends the process of an idle worker, if there is one. */
+static void worker_end(struct worker *worker)
+{
+    if (worker->pid != 0) {
+        close(worker->fd);
+        (void)wait_for_exit(worker);
+    }
+    *worker = (struct worker){.fd = -1};
+}
+
+/* Sends a run to worker[index], which is idle; starts its process first where there is
+ * none.  worker[count] are all of the pool: a new process closes the sockets of the
+ * others.  Errors: GB_ERR_MACHINE (no process, no socket), GB_ERR_INPUT (the name of the
+ * directory is too long). */
+static bool worker_submit(struct worker *worker, size_t count, size_t index,
+                          gb_pool_work *work, size_t ticket,
+                          const struct gb_params *params, const char *directory,
+                          struct gb_error *err)
+{
+    struct worker *own = &worker[index];
+    if (strlen(directory) >= PATH_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT, "%.300s: the name is too long", directory);
+    }
+    bool sent = own->pid != 0 && send_run(own, params, directory);
+    if (!sent) { /* no process yet, or it died while it was idle */
+        worker_end(own);
+        if (!begin(worker, count, index, work, err)) {
+            return false;
+        }
+        sent = send_run(own, params, directory);
+    }
+    if (!sent) {
+        gb_error_set(err, GB_ERR_MACHINE, "no run can be sent to a worker: %s",
+                     strerror(errno));
+        worker_end(own);
+        return false;
+    }
+    own->busy = true;
+    own->ticket = ticket;
+    own->since = gb_clock_s();
+    return true;
+}
+
+/* Receives a message of a busy worker whose fd is readable: true for its report, or the end
+ * of its process; false for the message that its run is loaded. */
+static bool worker_receive(struct worker *worker, struct gb_pool_report *report)
+{
+    ssize_t got = 0;
+    do {
+        got = recv(worker->fd, &report->error, sizeof report->error, 0);
+    } while (got < 0 && errno == EINTR);
+    if (got == 1) {
+        worker->writing = true;
+        return false;
+    }
+    report->ticket = worker->ticket;
+    report->seconds = gb_clock_s() - worker->since;
+    worker->busy = false;
+    worker->writing = false;
+    if (got != (ssize_t)sizeof report->error) {
+        close(worker->fd);
+        set_exit_error(wait_for_exit(worker), &report->error);
+        *worker = (struct worker){.fd = -1};
+    } else if (worker->stopped) {
+        worker_end(worker);
+    }
+    return true;
+}
+
+/* Asks the run of a busy worker to stop; it still reports.  Its process ends after that. */
+static void worker_stop(struct worker *worker)
+{
+    worker->stopped = true;
+    kill(worker->pid, SIGTERM);
+}
+
+/* --- the pool ------------------------------------------------------------------------- */
 
 struct gb_pool {
     gb_pool_work *work;
-    struct gb_worker *worker;
+    struct worker *worker;
     struct pollfd *poll;  /* of workers with a run, ... */
     size_t *polled;       /* ... and their indices */
     size_t count;         /* runs that load at once */
@@ -67,8 +300,8 @@ bool gb_pool_submit(struct gb_pool *pool, size_t ticket, const struct gb_params 
     while (pool->worker[idle].busy) {
         idle++;
     }
-    const bool given = gb_worker_submit(pool->worker, pool->slots, idle, pool->work,
-                                        ticket, params, directory, err);
+    const bool given = worker_submit(pool->worker, pool->slots, idle, pool->work, ticket,
+                                     params, directory, err);
     pool->busy += given;
     return given;
 }
@@ -77,7 +310,7 @@ bool gb_pool_submit(struct gb_pool *pool, size_t ticket, const struct gb_params 
 static bool read_worker(struct gb_pool *pool, size_t i, struct gb_pool_report *report)
 {
     const bool wrote = pool->worker[i].writing;
-    const bool ended = gb_worker_receive(&pool->worker[i], report);
+    const bool ended = worker_receive(&pool->worker[i], report);
     pool->busy -= ended;
     pool->writing -= ended && wrote;
     pool->writing += !ended && !wrote;
@@ -108,7 +341,7 @@ void gb_pool_stop(struct gb_pool *pool)
 {
     for (size_t i = 0; i < pool->slots; i++) {
         if (pool->worker[i].busy) {
-            gb_worker_stop(&pool->worker[i]);
+            worker_stop(&pool->worker[i]);
         }
     }
 }
@@ -126,7 +359,7 @@ void gb_pool_destroy(struct gb_pool *pool)
         (void)gb_pool_receive(pool, 1.0, &report);
     }
     for (size_t i = 0; i < pool->slots; i++) {
-        gb_worker_end(&pool->worker[i]);
+        worker_end(&pool->worker[i]);
     }
     gb_alloc_free(pool->worker);
     gb_alloc_free(pool->poll);

@@ -7,7 +7,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "io/lab/lab_reader.h"
-#include "many/lab/compaction_file.h"
+#include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 static const struct gb_compaction_window whole = {
@@ -35,7 +35,7 @@ static bool read_path(struct gb_compaction_data *data, const char *path,
         return gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, report.question);
     }
     const bool good =
-        outcome == GB_LAB_READ && gb_compaction_file(data, table, series, window, err);
+        outcome == GB_LAB_READ && gb_compaction_data_file(data, table, series, window, err);
     gb_table_destroy(table);
     return good;
 }

@@ -13,7 +13,7 @@
 #include "many/ensemble.h"
 #include "many/reading.h"
 #include "many/sweep/axes.h"
-#include "many/sweep/sweep_table.h"
+#include "many/sweep/param_sweep.h"
 
 /* Grids, workers and tables of many runs.  The runs are stand-ins with known curves:
  * density = 0.3 + mu p / GPa + the seed's part, unloaded from 100 MPa by one point. */
@@ -142,9 +142,9 @@ static bool work(struct gb_ensemble *ensemble, size_t workers, gb_pool_work *how
 static char *tables(struct gb_ensemble *ensemble, const struct gb_axes *axes)
 {
     struct gb_sweep_table_pressures at;
-    g_assert_true(gb_sweep_table_parse(&at, "25;100 MPa", NULL));
-    GString *means = gb_sweep_table_means(ensemble, axes, &at);
-    GString *runs = gb_sweep_table_runs(ensemble);
+    g_assert_true(gb_param_sweep_pressures(&at, "25;100 MPa", NULL));
+    GString *means = gb_param_sweep_means(ensemble, axes, &at);
+    GString *runs = gb_param_sweep_runs(ensemble);
     char *both = g_strconcat(means->str, runs->str, NULL);
     g_string_free(means, TRUE);
     g_string_free(runs, TRUE);
@@ -350,8 +350,8 @@ static void test_table(void)
     make(&ensemble, &axes, 3, "table");
     g_assert_true(work(&ensemble, 2, stand_in, NULL, &err));
     struct gb_sweep_table_pressures at;
-    g_assert_true(gb_sweep_table_parse(&at, "25;100;900 MPa", NULL));
-    GString *means = gb_sweep_table_means(&ensemble, &axes, &at);
+    g_assert_true(gb_param_sweep_pressures(&at, "25;100;900 MPa", NULL));
+    GString *means = gb_param_sweep_means(&ensemble, &axes, &at);
     char **lines = g_strsplit(means->str, "\n", -1);
     g_assert_cmpuint(g_strv_length(lines), ==, 3 + 1 + 6 + 1);
     double parts[3], mean = 0.0, error = 0.0;
@@ -567,8 +567,8 @@ static void test_enough(void)
         g_assert_true(ended == 6 || workers[k] > 1);
         g_assert_cmpuint(gb_ensemble_used(&ensemble, 0), ==, 3);
         struct gb_sweep_table_pressures at;
-        g_assert_true(gb_sweep_table_parse(&at, "100 MPa", NULL));
-        GString *means = gb_sweep_table_means(&ensemble, &axes, &at);
+        g_assert_true(gb_param_sweep_pressures(&at, "100 MPa", NULL));
+        GString *means = gb_param_sweep_means(&ensemble, &axes, &at);
         text[k] = g_string_free(means, FALSE);
         gb_ensemble_finish(&ensemble);
     }
@@ -683,7 +683,7 @@ static void test_pressures(void)
     struct gb_sweep_table_pressures at;
     const struct gb_params params = scene_params(
         "loading.until=150 MPa", "loading.unload_from=100 MPa; 120 MPa", NULL);
-    gb_sweep_table_default(&at, &params);
+    gb_param_sweep_default_pressures(&at, &params);
     static const double want[] = {1, 2, 5, 10, 20, 50, 100, 120, 150};
     g_assert_cmpuint(at.count, ==, G_N_ELEMENTS(want));
     for (size_t i = 0; i < at.count; i++) {
@@ -693,7 +693,7 @@ static void test_pressures(void)
                                       "0 MPa", "-5;10 MPa", "1;;2 MPa"};
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         struct gb_error err = {0};
-        g_assert_false(gb_sweep_table_parse(&at, bad[i], &err));
+        g_assert_false(gb_param_sweep_pressures(&at, bad[i], &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     }
 }

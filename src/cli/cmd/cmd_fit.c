@@ -14,7 +14,7 @@
 #include "figures/figures.h"
 #include "figures/plotting.h"
 #include "figures/runs/compaction_series.h"
-#include "many/lab/compaction_file.h"
+#include "many/lab/compaction_data.h"
 
 enum { DIRECTORIES_MAX = 1000 };
 
@@ -134,7 +134,7 @@ static bool read_file(struct gb_compaction_data *data, const struct request *req
     struct gb_table *table = NULL;
     const bool good =
         gb_lab_input_read(&table, &request->lab, path, NULL, err) &&
-        gb_compaction_file(data, table, request->lab.series, &request->window, err);
+        gb_compaction_data_file(data, table, request->lab.series, &request->window, err);
     gb_table_destroy(table);
     return good;
 }

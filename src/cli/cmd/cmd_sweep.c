@@ -9,7 +9,6 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "many/sweep/param_sweep.h"
-#include "many/sweep/sweep_shortfall.h"
 #include "run/cost.h"
 #include "study/sensitivity/sensitivity.h"
 
@@ -137,10 +136,10 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
         return false;
     }
     const struct gb_params *params = gb_preset_params(command->preset);
-    gb_sweep_table_default(&sweep->at, params);
-    return (!request->at || gb_sweep_table_parse(&sweep->at, request->at, err)) &&
+    gb_param_sweep_default_pressures(&sweep->at, params);
+    return (!request->at || gb_param_sweep_pressures(&sweep->at, request->at, err)) &&
            (!request->target ||
-            gb_sweep_target_parse(&sweep->target, request->target, err)) &&
+            gb_param_sweep_target(&sweep->target, request->target, err)) &&
            gb_param_sweep_fill(sweep, params, (size_t)request->replicas, request->out,
                                err) &&
            set_part(command, err) && estimate(command, err) &&
@@ -167,14 +166,14 @@ static bool write_sensitivities(struct command *command, struct gb_error *err)
 static void print_missed(const struct command *command)
 {
     const struct gb_param_sweep *sweep = &command->sweep;
-    const size_t shortfalls = gb_sweep_shortfall_runs(&sweep->ensemble);
+    const size_t shortfalls = gb_param_sweep_shortfalls(&sweep->ensemble);
     if (shortfalls > 0 && !command->request->quiet) {
         gb_visible_line(stderr,
                         "runs that missed a goal or have points that are not in "
                         "equilibrium: %zu (%s/runs.csv)",
                         shortfalls, command->request->out);
     }
-    const size_t missed = gb_sweep_target_missed(&sweep->target, &sweep->ensemble);
+    const size_t missed = gb_param_sweep_missed(&sweep->target, &sweep->ensemble);
     if (missed > 0 && !command->request->quiet) {
         gb_visible_line(stderr,
                         "%zu of %zu points: the standard error is still above %g; more "

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "figures/figures_label.h"
 #include "figures/runs/runs_check.h"
-#include "many/relaxation_curves.h"
+#include "many/mean_curves.h"
 #include "measure/fit/fit.h"
 
 /* Points of a curve. */
@@ -59,7 +59,7 @@ static bool draw_group(struct gb_series *series, const struct gb_runset *set,
     size_t count = 0;
     struct gb_mean_curves curves;
     struct gb_fit_decay fit;
-    if (!gb_relaxation_curves_read(&curves, set, group, err)) {
+    if (!gb_mean_curves_relaxation(&curves, set, group, err)) {
         gb_mean_curves_finish(&curves);
         return false;
     }

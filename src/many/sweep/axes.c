@@ -1,14 +1,41 @@
 #include "many/sweep/axes.h"
 
+#include <gsl/gsl_qrng.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/units.h"
+#include "greenbody/status.h"
 #include "io/material.h"
+#include "io/rundir.h"
 #include "many/key_difference.h"
 #include "many/runset.h"
-#include "many/sweep/sobol.h"
+
+enum { COORDINATES_MOST = 40 };
+
+/* Coordinate `axis` (0 to 39) of the first points of a Sobol sequence (GSL; Antonov and
+ * Saleev, USSR Comput. Maths Math. Phys. 19, 252 (1980)), each in [0, 1).  Errors:
+ * GB_ERR_MEMORY. */
+static bool sobol_coordinate(size_t axis, size_t points, double *share,
+                             struct gb_error *err)
+{
+    const unsigned int dimension = (unsigned int)axis + 1;
+    double coordinate[COORDINATES_MOST];
+    void *state = gb_alloc_array(1, gsl_qrng_sobol->state_size(dimension), err);
+    if (state == NULL) {
+        return false;
+    }
+    gsl_qrng_sobol->init_state(state, dimension);
+    for (size_t p = 0; p < points; p++) {
+        gsl_qrng_sobol->get(state, dimension, coordinate);
+        share[p] = coordinate[axis];
+    }
+    gb_alloc_free(state);
+    return true;
+}
 
 enum { DESIGN_LEAST = 2 };
 
@@ -122,7 +149,9 @@ bool gb_axes_is_free_text(const struct gb_axis *axis)
  * cannot have one. */
 static const char *separator_of(const struct gb_axis *axis, const char *values)
 {
-    return (gb_axes_is_free_text(axis) && !axis->material) || strchr(values, ';') != NULL ? ";" : ",";
+    return (gb_axes_is_free_text(axis) && !axis->material) || strchr(values, ';') != NULL
+               ? ";"
+               : ",";
 }
 
 static bool add_list(struct gb_axis *axis, const char *text, const char *values,
@@ -242,7 +271,7 @@ static bool add_design(struct gb_axes *axes, const char *text, const char *value
     axis->share = gb_alloc_array(axes->design, sizeof *axis->share, err);
     bool good = axis->share != NULL &&
                 (read_design_range(parts, &range) || refuse_range(text, err)) &&
-                gb_sobol_coordinate(axes->count - 1, axes->design, axis->share, err);
+                sobol_coordinate(axes->count - 1, axes->design, axis->share, err);
     for (size_t p = 0; good && p < axes->design; p++) {
         good = add_designed(axis, &range, axis->share[p], err);
     }
@@ -399,4 +428,33 @@ char *gb_axes_cell(const struct gb_axes *axes, size_t point, size_t axis, char *
         g_strlcpy(buffer, value, size); /* "0.008 d" among lengths: as it stands */
     }
     return buffer;
+}
+
+/* Is the key alone enough to tell this axis from the others? */
+static bool is_key_unique(const struct gb_axes *axes, size_t axis)
+{
+    for (size_t i = 0; i < axes->count; i++) {
+        if (i != axis &&
+            strcmp(axes->axis[i].field->key, axes->axis[axis].field->key) == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+char *gb_axes_name(const struct gb_axes *axes, size_t point)
+{
+    GString *name = g_string_new(axes->count == 0 ? "scene" : NULL);
+    for (size_t i = 0; i < axes->count; i++) {
+        const struct gb_field *field = axes->axis[i].field;
+        g_string_append(name, i > 0 ? "_" : "");
+        if (!is_key_unique(axes, i)) {
+            g_string_append_printf(name, "%s.", field->group);
+        }
+        g_string_append_printf(name, "%s-",
+                               axes->axis[i].material ? field->group : field->key);
+        gb_rundir_name_value(name, gb_axes_value(axes, point, i),
+                             gb_axes_is_free_text(&axes->axis[i]));
+    }
+    return g_string_free(name, FALSE);
 }

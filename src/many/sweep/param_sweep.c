@@ -1,8 +1,433 @@
+/* A sweep of parameters: its points are runs of an ensemble, its tables are read back from
+ * their directories. */
 #include "many/sweep/param_sweep.h"
 
 #include <glib.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "base/alloc.h"
 #include "base/file.h"
+#include "base/text/visible.h"
+#include "base/units.h"
+#include "greenbody/snapshot.h"
+#include "io/follow.h"
+#include "many/ensemble.h"
+#include "many/reading.h"
+#include "many/sweep/axes.h"
+#include "measure/fit/average.h"
+
+/* --- pressures ------------------------------------------------------------------------ */
+
+/* Default pressures reach from the first to the second, MPa. */
+static const double least_mpa = 1.0;
+static const double most_mpa = 1e5;
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void sort_pressures(struct gb_sweep_table_pressures *at)
+{
+    size_t kept = 0;
+    qsort(at->pa, at->count, sizeof at->pa[0], compare_doubles);
+    for (size_t i = 0; i < at->count; i++) {
+        if (kept == 0 || at->pa[i] > at->pa[kept - 1] * (1.0 + 1e-9)) {
+            at->pa[kept++] = at->pa[i];
+        }
+    }
+    at->count = kept;
+}
+
+bool gb_param_sweep_pressures(struct gb_sweep_table_pressures *at, const char *text,
+                              struct gb_error *err)
+{
+    char **parts = g_strsplit(text, ";", GB_SWEEP_TABLE_PRESSURES + 1);
+    const guint count = g_strv_length(parts);
+    const char *unit = "";
+    double number = 0.0;
+    at->count = 0;
+    if (count > 0 && gb_units_number(g_strstrip(parts[count - 1]), &unit, &number)) {
+        unit += strspn(unit, " \t");
+    }
+    bool good = count > 0 && count <= GB_SWEEP_TABLE_PRESSURES;
+    for (guint i = 0; i < count && good; i++) {
+        const char *end = NULL;
+        g_strstrip(parts[i]);
+        const bool bare = gb_units_number(parts[i], &end, &number) && *end == '\0';
+        char *whole = g_strconcat(parts[i], bare ? unit : "", NULL);
+        double *to = &at->pa[at->count++];
+        good = gb_units_parse(whole, GB_DIM_PRESSURE, to, NULL) && *to > 0.0;
+        g_free(whole);
+    }
+    g_strfreev(parts);
+    sort_pressures(at);
+    return good ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%.120s: accepted up to %d pressures above 0 separated by "
+                        "';', as in 50;100;200 MPa",
+                        text, GB_SWEEP_TABLE_PRESSURES);
+}
+
+void gb_param_sweep_default_pressures(struct gb_sweep_table_pressures *at,
+                                      const struct gb_params *params)
+{
+    static const double steps[] = {1.0, 2.0, 5.0};
+    const double until = params->until_pressure_pa / 1e6;
+    const double last = isfinite(until) ? fmin(until, most_mpa) : most_mpa;
+    at->count = 0;
+    for (double decade = least_mpa; decade <= last; decade *= 10.0) {
+        for (size_t k = 0; k < G_N_ELEMENTS(steps) && decade * steps[k] <= last; k++) {
+            at->pa[at->count++] = 1e6 * decade * steps[k];
+        }
+    }
+    for (int i = 0; i < params->unload_count; i++) {
+        at->pa[at->count++] = params->unload_from_pa[i];
+    }
+    if (isfinite(until)) {
+        at->pa[at->count++] = params->until_pressure_pa;
+    }
+    sort_pressures(at);
+}
+
+/* --- figures of a point --------------------------------------------------------------- */
+
+typedef bool read_figures(const struct gb_table *curve, double pressure_pa,
+                          double values[GB_READING_QUANTITIES]);
+
+static const struct branch {
+    const char *name;
+    read_figures *read;
+} branches[GB_SWEEP_BRANCHES] = {{"load", gb_reading_loaded},
+                                 {"unload", gb_reading_unloaded}};
+
+const char *gb_param_sweep_branch(size_t branch)
+{
+    return branches[branch].name;
+}
+
+static double *cell(const struct gb_sweep_readings *readings, size_t branch,
+                    size_t pressure, size_t quantity)
+{
+    const size_t row = (branch * readings->pressures + pressure) * GB_READING_QUANTITIES;
+    return readings->value + (row + quantity) * readings->runs;
+}
+
+static void read_run(const struct gb_sweep_readings *readings, size_t column,
+                     struct gb_ensemble_run *run,
+                     const struct gb_sweep_table_pressures *at)
+{
+    struct gb_table *curve = NULL;
+    const bool good = run->ended && run->error.code == GB_OK &&
+                      gb_reading_open(&curve, run->directory, &run->error);
+    for (size_t b = 0; b < GB_SWEEP_BRANCHES; b++) {
+        for (size_t p = 0; p < at->count; p++) {
+            double values[GB_READING_QUANTITIES];
+            const bool there = good && branches[b].read(curve, at->pa[p], values);
+            for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
+                cell(readings, b, p, q)[column] = there ? values[q] : (double)NAN;
+            }
+        }
+    }
+    gb_table_destroy(curve);
+}
+
+void gb_param_sweep_readings_init(struct gb_sweep_readings *readings,
+                                  struct gb_ensemble *ensemble, size_t point,
+                                  const struct gb_sweep_table_pressures *at)
+{
+    *readings = (struct gb_sweep_readings){.pressures = at->count};
+    readings->runs = gb_ensemble_used(ensemble, point);
+    readings->value = g_new(double, GB_SWEEP_BRANCHES * at->count *
+                                        GB_READING_QUANTITIES * readings->runs);
+    for (size_t r = 0; r < readings->runs; r++) {
+        read_run(readings, r, gb_ensemble_at(ensemble, point, r), at);
+    }
+}
+
+void gb_param_sweep_readings_finish(struct gb_sweep_readings *readings)
+{
+    g_free(readings->value);
+    *readings = (struct gb_sweep_readings){0};
+}
+
+const double *gb_param_sweep_readings_at(const struct gb_sweep_readings *readings,
+                                         size_t branch, size_t pressure, size_t quantity)
+{
+    return cell(readings, branch, pressure, quantity);
+}
+
+/* --- target of the standard error ----------------------------------------------------- */
+
+/* The scatter of fewer replicas is too uncertain to stop at. */
+enum { REPLICAS_MIN = 4 };
+
+bool gb_param_sweep_target(struct gb_sweep_target *target, const char *text,
+                           struct gb_error *err)
+{
+    char **parts = g_strsplit(text, "@", 3);
+    const bool good =
+        g_strv_length(parts) == 2 &&
+        gb_units_parse(parts[0], GB_DIM_NONE, &target->standard_error, NULL) &&
+        gb_units_parse(parts[1], GB_DIM_PRESSURE, &target->pressure_pa, NULL) &&
+        target->standard_error > 0.0 && target->pressure_pa > 0.0;
+    g_strfreev(parts);
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "--until-se %.80s: accepted a standard error of the "
+                                "density and a pressure, as in 0.002@100MPa",
+                                text);
+}
+
+/* The density of a run that has ended; its curve is read once. */
+static double density_of(const struct gb_sweep_target *target,
+                         const struct gb_ensemble *ensemble,
+                         const struct gb_ensemble_run *run)
+{
+    const size_t i = (size_t)(run - ensemble->run);
+    double values[GB_READING_QUANTITIES] = {NAN};
+    struct gb_table *curve = NULL;
+    if (target->is_read[i]) {
+        return target->density[i];
+    }
+    if (run->error.code == GB_OK && gb_reading_open(&curve, run->directory, NULL)) {
+        gb_reading_loaded(curve, target->pressure_pa, values);
+    }
+    gb_table_destroy(curve);
+    target->is_read[i] = true;
+    target->density[i] = values[GB_READING_DENSITY];
+    return target->density[i];
+}
+
+/* The first k replicas have all ended and are enough, for some k. */
+static bool has_converged(const struct gb_ensemble *ensemble, size_t point, void *data)
+{
+    const struct gb_sweep_target *target = data;
+    double *values = g_new(double, ensemble->replicas);
+    bool enough = false;
+    for (size_t r = 0; r < ensemble->replicas && !enough; r++) {
+        const struct gb_ensemble_run *run = gb_ensemble_at(ensemble, point, r);
+        double mean = NAN;
+        double error = NAN;
+        if (!run->ended) {
+            break;
+        }
+        values[r] = density_of(target, ensemble, run);
+        const size_t runs = gb_average_values(values, r + 1, &mean, &error);
+        enough = runs >= REPLICAS_MIN && error <= target->standard_error;
+    }
+    g_free(values);
+    return enough;
+}
+
+/* Makes it the convergence test of the ensemble; target must outlive the work.  Errors:
+ * GB_ERR_MEMORY.  gb_param_sweep_target_finish is due. */
+static bool sweep_target_apply(struct gb_sweep_target *target,
+                               struct gb_ensemble *ensemble, struct gb_error *err)
+{
+    const size_t runs = ensemble->points * ensemble->replicas;
+    target->density = gb_alloc_array(runs, sizeof *target->density, err);
+    target->is_read =
+        target->density ? gb_alloc_array(runs, sizeof *target->is_read, err) : NULL;
+    ensemble->converged = has_converged;
+    ensemble->data = target;
+    return target->is_read != NULL;
+}
+
+void gb_param_sweep_target_finish(struct gb_sweep_target *target)
+{
+    gb_alloc_free(target->density);
+    gb_alloc_free(target->is_read);
+    target->density = NULL;
+    target->is_read = NULL;
+}
+
+size_t gb_param_sweep_missed(const struct gb_sweep_target *target,
+                             const struct gb_ensemble *ensemble)
+{
+    size_t missed = 0;
+    for (size_t p = 0; p < ensemble->points && target->is_read != NULL; p++) {
+        missed += !has_converged(ensemble, p, (void *)target);
+    }
+    return missed;
+}
+
+/* --- tables --------------------------------------------------------------------------- */
+
+/* The tables of a sweep.  Both depend on the run directories alone: they are the same for
+ * any number of workers and restarts. */
+
+/* What runs that are done have not reached: goals of their loading, equilibrium of points. */
+
+/* The words of the run itself, g_free; NULL: it has reached everything, or is not done. */
+static char *sweep_shortfall_text(const struct gb_ensemble_run *run)
+{
+    struct gb_snapshot shot = {0};
+    struct gb_follow_engine engine;
+    struct gb_error ignored;
+    const bool told = run->ended && run->error.code == GB_OK &&
+                      gb_follow_status(run->directory, &shot, &engine, &ignored) &&
+                      shot.state == GB_RUN_DONE && shot.error.text[0] != '\0';
+    return told ? g_strdup(shot.error.text) : NULL;
+}
+
+size_t gb_param_sweep_shortfalls(const struct gb_ensemble *ensemble)
+{
+    size_t runs = 0;
+    for (size_t point = 0; point < ensemble->points; point++) {
+        const size_t used = gb_ensemble_used(ensemble, point);
+        for (size_t replica = 0; replica < used; replica++) {
+            char *text = sweep_shortfall_text(gb_ensemble_at(ensemble, point, replica));
+            runs += text != NULL;
+            g_free(text);
+        }
+    }
+    return runs;
+}
+
+static void append_number(GString *text, double value)
+{
+    g_string_append_c(text, ',');
+    if (isfinite(value)) {
+        g_string_append_printf(text, "%.12g", value);
+    }
+}
+
+/* The varied values of a point as cells; numbers in the unit that the column names. */
+static void append_values(GString *text, const struct gb_axes *axes, size_t point)
+{
+    for (size_t i = 0; i < axes->count; i++) {
+        char cell[GB_PARAMS_VALUE_MAX];
+        gb_axes_cell(axes, point, i, cell, sizeof cell);
+        g_string_append_c(text, ',');
+        gb_visible_add_cell(text, cell, true);
+    }
+}
+
+static void append_rows(GString *text, const struct gb_sweep_readings *readings,
+                        const struct gb_axes *axes, size_t point,
+                        const struct gb_sweep_table_pressures *at)
+{
+    for (size_t b = 0; b < GB_SWEEP_BRANCHES; b++) {
+        for (size_t p = 0; p < at->count; p++) {
+            double mean = NAN;
+            double error = NAN;
+            const size_t runs = gb_average_values(
+                gb_param_sweep_readings_at(readings, b, p, GB_READING_DENSITY),
+                readings->runs, &mean, &error);
+            if (runs == 0) {
+                continue;
+            }
+            g_string_append_printf(text, "%zu", point + 1);
+            append_values(text, axes, point);
+            g_string_append_printf(text, ",%s,%.12g,%zu", gb_param_sweep_branch(b),
+                                   at->pa[p] / 1e6, runs);
+            for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
+                gb_average_values(gb_param_sweep_readings_at(readings, b, p, q),
+                                  readings->runs, &mean, &error);
+                append_number(text, mean);
+                append_number(text, error);
+            }
+            g_string_append_c(text, '\n');
+        }
+    }
+}
+
+/* Runs that count although they fell short. */
+static void append_shortfalls(GString *text, const struct gb_ensemble *ensemble)
+{
+    const size_t runs = gb_param_sweep_shortfalls(ensemble);
+    if (runs > 0) {
+        g_string_append_printf(text,
+                               "# runs that missed a goal or have points that are not "
+                               "in equilibrium: %zu (runs.csv)\n",
+                               runs);
+    }
+}
+
+static void append_header(GString *text, const struct gb_axes *axes,
+                          const struct gb_ensemble *ensemble)
+{
+    g_string_append(
+        text,
+        "# greenbody " GB_VERSION "\n"
+        "# means over the runs of a point and their standard errors (se_); load: where "
+        "the mean\n# pressure over the compressed axes first reaches p_MPa; unload: "
+        "after unloading from it\n");
+    append_shortfalls(text, ensemble);
+    g_string_append(text, "point");
+    for (size_t i = 0; i < axes->count; i++) {
+        char *name = gb_axes_column(axes, i);
+        g_string_append_printf(text, ",%s", name);
+        g_free(name);
+    }
+    g_string_append(text, ",branch,p_MPa,runs");
+    for (int q = 0; q < GB_READING_QUANTITIES; q++) {
+        const char *name = gb_reading_name((enum gb_reading_quantity)q);
+        g_string_append_printf(text, ",%s,se_%s", name, name);
+    }
+    g_string_append_c(text, '\n');
+}
+
+GString *gb_param_sweep_means(struct gb_ensemble *ensemble, const struct gb_axes *axes,
+                              const struct gb_sweep_table_pressures *at)
+{
+    GString *text = g_string_new(NULL);
+    append_header(text, axes, ensemble);
+    for (size_t point = 0; point < ensemble->points; point++) {
+        struct gb_sweep_readings readings;
+        gb_param_sweep_readings_init(&readings, ensemble, point, at);
+        append_rows(text, &readings, axes, point, at);
+        gb_param_sweep_readings_finish(&readings);
+    }
+    return text;
+}
+
+/* Text as one cell, with the quotes of CSV. */
+static void append_quoted(GString *text, const char *word)
+{
+    g_string_append_c(text, '"');
+    for (const char *c = word; *c != '\0'; c++) {
+        g_string_append(text, *c == '"' ? "\"" : "");
+        g_string_append_c(text, *c);
+    }
+    g_string_append_c(text, '"');
+}
+
+GString *gb_param_sweep_runs(const struct gb_ensemble *ensemble)
+{
+    GString *text = g_string_new("run,point,seed,state,error\n");
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        const struct gb_ensemble_run *run = &ensemble->run[i];
+        const bool used = run->replica < gb_ensemble_used(ensemble, run->point);
+        if (!run->ended && !used) {
+            continue;
+        }
+        char *name = g_path_get_basename(run->directory);
+        g_string_append_printf(text, "%s,%zu,%" PRIu64 ",%s,", name, run->point + 1,
+                               run->params.seed,
+                               !run->ended                ? "missing"
+                               : run->error.code != GB_OK ? "failed"
+                               : used                     ? "done"
+                                                          : "spare");
+        char *shortfall = sweep_shortfall_text(run);
+        if (run->error.code != GB_OK || shortfall != NULL) {
+            append_quoted(text, shortfall != NULL ? shortfall : run->error.text);
+        }
+        g_free(shortfall);
+        g_string_append_c(text, '\n');
+        g_free(name);
+    }
+    return text;
+}
+
+/* --- the sweep ------------------------------------------------------------------------ */
 
 /* Parameters and directory of every run. */
 static bool fill_runs(struct gb_param_sweep *sweep, const struct gb_params *params,
@@ -32,13 +457,13 @@ bool gb_param_sweep_fill(struct gb_param_sweep *sweep, const struct gb_params *p
                             err) &&
            fill_runs(sweep, params, directory, err) &&
            (!(sweep->target.standard_error > 0.0) ||
-            gb_sweep_target_apply(&sweep->target, &sweep->ensemble, err)) &&
+            sweep_target_apply(&sweep->target, &sweep->ensemble, err)) &&
            gb_ensemble_find_done(&sweep->ensemble, err);
 }
 
 void gb_param_sweep_finish(struct gb_param_sweep *sweep)
 {
-    gb_sweep_target_finish(&sweep->target);
+    gb_param_sweep_target_finish(&sweep->target);
     gb_ensemble_finish(&sweep->ensemble);
     gb_axes_finish(&sweep->axes);
 }
@@ -58,7 +483,7 @@ bool gb_param_sweep_write(struct gb_param_sweep *sweep, const char *directory,
 {
     return gb_param_sweep_put(
                directory, "sweep.csv",
-               gb_sweep_table_means(&sweep->ensemble, &sweep->axes, &sweep->at), err) &&
+               gb_param_sweep_means(&sweep->ensemble, &sweep->axes, &sweep->at), err) &&
            gb_param_sweep_put(directory, "runs.csv",
-                              gb_sweep_table_runs(&sweep->ensemble), err);
+                              gb_param_sweep_runs(&sweep->ensemble), err);
 }

@@ -9,7 +9,6 @@
 #include "io/preset.h"
 #include "io/state/state_forces.h"
 #include "many/mean_curves.h"
-#include "many/relaxation_curves.h"
 #include "measure/fit/average.h"
 #include "measure/fit/power.h"
 #include "measure/hardening.h"
@@ -276,8 +275,8 @@ static bool fit_decay(const struct gb_papers_view *view,
     struct gb_mean_curves curves = {0};
     const bool good = gb_papers_plan_point(view, gb_papers_plan_index(row->experiment[0]),
                                            row->point, &set) > 0 &&
-                      gb_relaxation_curves_read(&curves, &set, 0, NULL) &&
-                      gb_relaxation_curves_fit(fit, curves.curve, curves.count, NULL);
+                      gb_mean_curves_relaxation(&curves, &set, 0, NULL) &&
+                      gb_mean_curves_decay(fit, curves.curve, curves.count, NULL);
     gb_mean_curves_finish(&curves);
     g_free(set.run);
     return good;
@@ -377,7 +376,7 @@ static double rates_fast(const struct gb_papers_view *view,
     (void)mean_pressure(view, row->experiment[0], end_density, &start);
     if (gb_papers_plan_point(view, gb_papers_plan_index(row->experiment[0]), row->point,
                              &set) > 0 &&
-        gb_relaxation_curves_read(&curves, &set, 0, NULL) &&
+        gb_mean_curves_relaxation(&curves, &set, 0, NULL) &&
         gb_mean_curves_mean(curves.curve, curves.count, &t, &p, &count, NULL)) {
         efold = reach(t, p, count, start.p, end + (start.p - end) / M_E);
     }

@@ -7,7 +7,6 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "many/sweep/param_sweep.h"
-#include "many/sweep/sweep_readings.h"
 #include "measure/fit/sobol_indices.h"
 
 /* Sensitivities of what a sweep by a design measures: which varied key its figures depend
@@ -37,7 +36,7 @@ static bool open_work(struct work *work, struct gb_error *err)
         return false;
     }
     for (size_t p = 0; p < ensemble->points; p++) {
-        gb_sweep_readings_init(&work->reading[p], &work->sweep->ensemble, p,
+        gb_param_sweep_readings_init(&work->reading[p], &work->sweep->ensemble, p,
                                &work->sweep->at);
         for (size_t k = 0; k < axes->count; k++) {
             work->at[p * axes->count + k] = 2.0 * axes->axis[k].share[p] - 1.0;
@@ -49,7 +48,7 @@ static bool open_work(struct work *work, struct gb_error *err)
 static void close_work(struct work *work)
 {
     for (size_t p = 0; work->reading != NULL && p < work->sweep->ensemble.points; p++) {
-        gb_sweep_readings_finish(&work->reading[p]);
+        gb_param_sweep_readings_finish(&work->reading[p]);
     }
     gb_alloc_free(work->reading);
     gb_alloc_free(work->at);
@@ -62,7 +61,7 @@ static bool collect(const struct work *work, const struct gb_sensitivity_item *o
     const struct gb_ensemble *ensemble = &work->sweep->ensemble;
     double low = INFINITY, high = -INFINITY;
     for (size_t p = 0; p < ensemble->points; p++) {
-        const double *from = gb_sweep_readings_at(&work->reading[p], of->branch,
+        const double *from = gb_param_sweep_readings_at(&work->reading[p], of->branch,
                                                   of->pressure, of->quantity);
         for (size_t r = 0; r < ensemble->replicas; r++) {
             const double value = r < work->reading[p].runs ? from[r] : (double)NAN;
@@ -159,7 +158,7 @@ static void add_rows(GString *text, const struct gb_sensitivity_item *of,
 {
     const struct gb_sobol_indices *indices = &of->indices;
     for (size_t k = 0; k < sweep->axes.count; k++) {
-        g_string_append_printf(text, "%s,%.12g,%s,", gb_sweep_readings_branch(of->branch),
+        g_string_append_printf(text, "%s,%.12g,%s,", gb_param_sweep_branch(of->branch),
                                sweep->at.pa[of->pressure] / 1e6,
                                gb_reading_name((enum gb_reading_quantity)of->quantity));
         add_key(text, sweep, k);

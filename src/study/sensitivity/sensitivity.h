@@ -8,7 +8,7 @@
 
 /* One figure at one pressure. */
 struct gb_sensitivity_item {
-    size_t branch, pressure, quantity; /* indices as in many/sweep/sweep_readings.h */
+    size_t branch, pressure, quantity; /* indices as in many/sweep/param_sweep.h */
     struct gb_sobol_indices indices;
 };
 

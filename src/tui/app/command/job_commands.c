@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "io/store.h"
-#include "many/sweep/sweep_target.h"
+#include "many/sweep/param_sweep.h"
 #include "study/calibrate/calibration.h"
 #include "tui/app/command/key_commands.h"
 #include "tui/app/dialog/dialogs.h"
@@ -131,8 +131,8 @@ static bool is_target(const char *text, struct gb_sweep_target *target,
                       struct gb_error *err)
 {
     const bool good =
-        text == NULL || *text == '\0' || gb_sweep_target_parse(target, text, err);
-    gb_sweep_target_finish(target);
+        text == NULL || *text == '\0' || gb_param_sweep_target(target, text, err);
+    gb_param_sweep_target_finish(target);
     return good;
 }
 
