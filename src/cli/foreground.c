@@ -4,8 +4,8 @@
 
 #include <glib.h>
 
+#include "cli/json_output.h"
 #include "cli/options.h"
-#include "cli/output/json_output.h"
 #include "cli/signals.h"
 
 /* --- callbacks of the simulation --------------------------------------------------- */

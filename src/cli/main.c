@@ -1,30 +1,54 @@
+#ifdef __GLIBC__
+#endif
+
 #include <errno.h>
+#include <glib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_version.h>
 #include <locale.h>
-#ifdef __GLIBC__
 #include <malloc.h>
-#endif
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <glib.h>
-
 #include "base/built_with.h"
 #include "base/program.h"
 #include "base/text/nearest_word.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
-#include "cli/complete/completion.h"
-#include "cli/exit_status.h"
+#include "cli/completion.h"
 #include "cli/options.h"
 #include "cli/screen_options.h"
 #include "hdf/hdf.h"
 #include "io/preset_folders.h"
 #include "pack/kernel/simd.h"
+
+static const struct {
+    const char *status, *meaning;
+} rows[] = {
+    {"0", "done"},
+    {"1",
+     "a physical or numerical guard stopped the run, or it ended without reaching a goal "
+     "(loading.until, a pressure of loading.unload_from) or beyond one (also the end of a leg "
+     "of loading.path), or with points that are not in "
+     "equilibrium; the results are kept"},
+    {"2", "bad usage or input; one line with the rejected value and what is accepted"},
+    {"3", "the machine: disk full, no permission, out of memory"},
+    {"129", "stopped by SIGHUP; points and state are kept"},
+    {"130", "stopped by SIGINT; points and state are kept"},
+    {"143", "stopped by SIGTERM; points and state are kept"},
+};
+
+/* Exit statuses of all commands, "STATUS MEANING", a line each: the manual pages are made
+ * from it, and tests/pages.py compares docs/manual.md with it. */
+static void exit_status_print(FILE *to)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        gb_visible_print(to, "%s %s\n", rows[i].status, rows[i].meaning);
+    }
+}
 
 static void print_names(char **names)
 {
@@ -169,7 +193,7 @@ static int dispatch(int argc, char **argv)
         return 0;
     }
     if (strcmp(word, "--exit-statuses") == 0) { /* for the manual pages */
-        gb_exit_status_print(stdout);
+        exit_status_print(stdout);
         return 0;
     }
     if (strcmp(word, GB_COMPLETION_WORD) == 0) {

@@ -7,7 +7,7 @@
 #include <glib/gstdio.h>
 
 #include "base/text/visible.h"
-#include "cli/complete/completion.h"
+#include "cli/completion.h"
 #include "draw/image/png.h"
 #include "io/material.h"
 #include "io/preset_folders.h"

@@ -1,17 +1,610 @@
+/* A run in a background thread, for the screen.  The engine thread computes a run of its own;
+ * the follow thread reads the directory of a run that another process computes.  Both hand
+ * snapshots and view samples to the screen without a lock (publish.h), and take commands from
+ * a ring.  A paused engine sleeps on a condition. */
 #include "runner/runner.h"
-#include "run/change.h"
 
 #include <glib.h>
+#include <glib/gstdio.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "api/simulation_private.h"
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/thread.h"
 #include "io/follow.h"
 #include "io/rundir.h"
+#include "run/change.h"
 #include "run/checkpoint.h"
-#include "runner/runner_private.h"
+#include "runner/publish.h"
+#include "runner/view_sampling.h"
 #include "scene/field/changes.h"
+
+enum { EVENTS = 256 }; /* the last ones are kept */
+
+struct gb_runner {
+    /* const once the thread runs */
+    struct gb_params params;
+    struct gb_simulation *simulation; /* of the thread, except for the curve */
+    char *directory;                  /* NULL: not recorded */
+    bool resumed;                     /* continues the run in its directory */
+    pthread_t thread;
+    bool joined; /* the thread has ended; of the screen */
+
+    /* shared without a lock: see publish.h */
+    struct gb_publish publish;
+    struct gb_publish_slots view_slots; /* of the view samples */
+    struct gb_view_sample view[3];
+    struct gb_view_start view_start; /* of the thread alone */
+    struct gb_command_ring ring;
+
+    /* guarded by the mutex: a paused engine sleeps on wake */
+    pthread_mutex_t mutex;
+    pthread_cond_t wake;
+    bool quit;
+    int64_t stored;          /* GB_COMMAND_STORE done so far */
+    bool forked;             /* record holds the requested state */
+    size_t forked_points;    /* of the curve, at that state */
+    struct gb_record record; /* of the engine until forked, then of the screen */
+    int64_t events;          /* number of all so far */
+    char event[EVENTS][GB_EVENT_TEXT];
+
+    /* of the thread alone */
+    bool paused, stop;
+    bool yielded;      /* sleeps while another engine computes */
+    bool view_wanted;  /* view samples are taken */
+    bool store_wanted; /* state.h5 is written between two slices */
+    bool fork_wanted;  /* the state of the next loading point is handed over */
+    double published_s, publish_cost_s; /* clock reading; seconds that filling took */
+    double sampled_s, sample_cost_s;    /* the same of the view sample */
+};
+
+/* What the simulation keeps of the run. */
+static struct gb_run_loop *loop_of(const struct gb_runner *runner)
+{
+    return &runner->simulation->loop;
+}
+
+/* --- what the threads publish --------------------------------------------------------- */
+
+/* The screen draws at most ten frames per second, and each snapshot costs a sweep over
+ * the contacts: the shortest interval (s), and the largest share of the engine's time. */
+static const double publish_every_s = 0.05, publish_share = 0.1;
+
+/* The same for view samples, which change slowly and cost more. */
+static const double view_every_s = 0.25, view_share = 0.03;
+
+/* GB_COMMAND_STORE is done. */
+static void publish_stored(struct gb_runner *runner)
+{
+    runner->store_wanted = false;
+    pthread_mutex_lock(&runner->mutex);
+    runner->stored++;
+    pthread_mutex_unlock(&runner->mutex);
+}
+
+/* Adds to the list of events that the screen reads. */
+static void publish_event(struct gb_runner *runner, const char *text)
+{
+    pthread_mutex_lock(&runner->mutex);
+    g_strlcpy(runner->event[runner->events % EVENTS], text, GB_EVENT_TEXT);
+    runner->events++;
+    pthread_mutex_unlock(&runner->mutex);
+}
+
+/* The screen shows the list of events of the runner, which has more than events.log
+ * (pauses, disk errors), and none from before a resume. */
+static void publish_snapshot(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = gb_publish_back(&runner->publish);
+    *shown = loop_of(runner)->snapshot;
+    pthread_mutex_lock(&runner->mutex);
+    shown->events = runner->events;
+    if (runner->events > 0) {
+        memcpy(shown->event, runner->event[(runner->events - 1) % EVENTS], GB_EVENT_TEXT);
+    }
+    pthread_mutex_unlock(&runner->mutex);
+    gb_publish_swap(&runner->publish);
+    runner->published_s = gb_clock_s();
+}
+
+static void observe(struct gb_runner *runner, enum gb_run_state state)
+{
+    const double before = gb_clock_s();
+    gb_run_loop_observe(loop_of(runner), state);
+    runner->publish_cost_s = gb_clock_s() - before;
+    publish_snapshot(runner);
+}
+
+static void publish_view(struct gb_runner *runner)
+{
+    const double before = gb_clock_s();
+    if (loop_of(runner)->experiment == NULL || !runner->view_wanted) {
+        return;
+    }
+    gb_view_sampling_take(loop_of(runner)->experiment, &runner->view_start,
+                          &runner->view[runner->view_slots.back]);
+    gb_publish_slots_swap(&runner->view_slots);
+    runner->sampled_s = gb_clock_s();
+    runner->sample_cost_s = runner->sampled_s - before;
+}
+
+/* A view sample of a state of a file. */
+static void publish_view_of(struct gb_runner *runner, const struct gb_state *state)
+{
+    gb_view_sampling_take_state(state, true, &runner->view_start,
+                                &runner->view[runner->view_slots.back]);
+    gb_publish_slots_swap(&runner->view_slots);
+}
+
+/* Observes the run and publishes; before that a view sample, so that both show the same
+ * state. */
+static void publish_state(struct gb_runner *runner, enum gb_run_state state)
+{
+    publish_view(runner);
+    observe(runner, state);
+}
+
+static void publish_view_if_due(struct gb_runner *runner)
+{
+    const double every = fmax(view_every_s, runner->sample_cost_s / view_share);
+    if (gb_clock_s() - runner->sampled_s >= every) {
+        publish_view(runner);
+    }
+}
+
+static void publish_if_due(struct gb_runner *runner, enum gb_run_state state)
+{
+    const double every = fmax(publish_every_s, runner->publish_cost_s / publish_share);
+    if (gb_clock_s() - runner->published_s >= every) {
+        observe(runner, state);
+    }
+}
+
+/* --- the engine thread ---------------------------------------------------------------- */
+
+/* The reason of GB_COMMAND_STOP. */
+static const char stopped[] = "stopped on request";
+
+static void obey(struct gb_runner *runner, struct gb_command command)
+{
+    switch (command.kind) {
+    case GB_COMMAND_PAUSE:
+        runner->paused = true;
+        break;
+    case GB_COMMAND_RESUME:
+        runner->paused = false;
+        break;
+    case GB_COMMAND_STOP:
+        runner->stop = true;
+        break;
+    case GB_COMMAND_WATCH:
+        runner->view_wanted = true;
+        break;
+    case GB_COMMAND_FORK:
+        runner->fork_wanted = true;
+        break;
+    case GB_COMMAND_YIELD:
+        runner->yielded = true;
+        break;
+    case GB_COMMAND_CONTINUE:
+        runner->yielded = false;
+        break;
+    case GB_COMMAND_STORE:
+        runner->store_wanted = true;
+        break;
+    }
+}
+
+/* Takes all commands from the ring. */
+static void drain(struct gb_runner *runner)
+{
+    struct gb_command command;
+    while (gb_command_ring_pop(&runner->ring, &command)) {
+        obey(runner, command);
+    }
+    pthread_mutex_lock(&runner->mutex);
+    runner->stop = runner->stop || runner->quit;
+    pthread_mutex_unlock(&runner->mutex);
+}
+
+/* A run without a recorded point has no state to store yet. */
+static bool store_is_due(const struct gb_runner *runner)
+{
+    const struct gb_run_recorder *recorder = loop_of(runner)->recorder;
+    return runner->store_wanted &&
+           (recorder == NULL || gb_run_recorder_points(recorder) > 0);
+}
+
+static void store_if_due(struct gb_runner *runner)
+{
+    if (store_is_due(runner)) {
+        gb_run_loop_store(loop_of(runner));
+        publish_stored(runner);
+    }
+}
+
+/* Sleeps until a command clears the reason; the time does not count for the run. */
+static void sleep_while(struct gb_runner *runner, const bool *reason)
+{
+    const double from = gb_clock_s();
+    pthread_mutex_lock(&runner->mutex);
+    while (*reason && !runner->stop) {
+        struct gb_command command;
+        if (runner->quit) {
+            runner->stop = true;
+        } else if (store_is_due(runner)) {
+            pthread_mutex_unlock(&runner->mutex);
+            store_if_due(runner);
+            pthread_mutex_lock(&runner->mutex);
+        } else if (gb_command_ring_pop(&runner->ring, &command)) {
+            obey(runner, command);
+        } else {
+            pthread_cond_wait(&runner->wake, &runner->mutex);
+        }
+    }
+    pthread_mutex_unlock(&runner->mutex);
+    gb_run_loop_exclude(loop_of(runner), gb_clock_s() - from);
+}
+
+static void sleep_paused(struct gb_runner *runner)
+{
+    publish_event(runner, "paused");
+    publish_state(runner, GB_RUN_PAUSED);
+    gb_run_loop_save(loop_of(runner));
+    sleep_while(runner, &runner->paused);
+    if (!runner->stop) {
+        publish_event(runner, "resumed");
+        publish_state(runner, GB_RUN_RUNNING);
+    }
+}
+
+static void cancel_if_stopped(struct gb_runner *runner)
+{
+    if (runner->stop) {
+        gb_simulation_cancel(runner->simulation, stopped);
+    }
+}
+
+static void between_slices(void *data)
+{
+    struct gb_runner *runner = data;
+    drain(runner);
+    store_if_due(runner);
+    if (runner->yielded && !runner->stop) {
+        sleep_while(runner, &runner->yielded);
+    }
+    if (runner->paused && !runner->stop) {
+        sleep_paused(runner);
+    }
+    cancel_if_stopped(runner);
+}
+
+static void on_event(void *data, struct gb_simulation *simulation, int64_t step,
+                     const char *text)
+{
+    (void)simulation;
+    (void)step;
+    publish_event(data, text);
+}
+
+static bool is_unloading(const struct gb_record *record)
+{
+    const struct gb_record_item *branch = gb_record_find(record, "load/branch");
+    return branch != NULL && *(const int32_t *)branch->data > 0;
+}
+
+/* The state at a point of the loading branch, when it was requested and the one before
+ * has been taken. */
+static void hand_over(struct gb_runner *runner, const struct gb_point *point)
+{
+    struct gb_error err = {0};
+    pthread_mutex_lock(&runner->mutex);
+    const bool forked = runner->forked;
+    pthread_mutex_unlock(&runner->mutex);
+    if (!runner->fork_wanted || point->branch > 0 || forked) {
+        return;
+    }
+    if (!gb_checkpoint_take(loop_of(runner)->experiment, &runner->record, &err)) {
+        runner->fork_wanted = false;
+        publish_event(runner, err.text);
+        return;
+    }
+    if (is_unloading(&runner->record)) {
+        return; /* an unloading begins here: at the next point */
+    }
+    runner->fork_wanted = false;
+    pthread_mutex_lock(&runner->mutex);
+    runner->forked = true;
+    runner->forked_points = gb_simulation_points(runner->simulation);
+    pthread_mutex_unlock(&runner->mutex);
+}
+
+static void on_point(void *data, struct gb_simulation *simulation,
+                     const struct gb_point *point)
+{
+    (void)simulation;
+    hand_over(data, point);
+}
+
+/* Also while the packing is built. */
+static void on_progress(void *data, struct gb_simulation *simulation, double share)
+{
+    struct gb_runner *runner = data;
+    (void)share;
+    if (simulation->loop.experiment == NULL) {
+        drain(runner);
+        publish_if_due(runner, GB_RUN_PACKING);
+        cancel_if_stopped(runner);
+        return;
+    }
+    publish_view_if_due(runner);
+    publish_if_due(runner, GB_RUN_RUNNING);
+}
+
+/* The end itself is published once the last files are there: what is done can be pictured,
+ * reported and measured at once. */
+static void on_end(void *data)
+{
+    publish_view(data); /* first, so that it is there with the state */
+}
+
+/* The run of a workbench continues without its directory. */
+static bool on_record_error(void *data, const struct gb_error *err)
+{
+    char text[GB_EVENT_TEXT];
+    snprintf(text, sizeof text, "no longer recorded: %s", err->text);
+    publish_event(data, text);
+    return true;
+}
+
+/* A new run in a new directory; without one it is not recorded. */
+static void create_recorder(struct gb_runner *runner)
+{
+    char text[GB_EVENT_TEXT];
+    struct gb_error err = {0};
+    if (runner->directory == NULL) {
+        return;
+    }
+    if (gb_simulation_start_record(runner->simulation, runner->directory, GB_RUNDIR_KEEP,
+                                   &err)) {
+        snprintf(text, sizeof text, "recorded in %s", runner->directory);
+    } else {
+        snprintf(text, sizeof text, "not recorded: %s", err.text);
+    }
+    publish_event(runner, text);
+    gb_run_loop_inherit(loop_of(runner), gb_runner_curve(runner));
+}
+
+/* The engine that holds the lock has been told to stop. */
+static bool wait_for_lock(struct gb_runner *runner, struct gb_error *err)
+{
+    while (gb_rundir_busy(runner->directory)) {
+        drain(runner);
+        publish_if_due(runner, GB_RUN_PACKING);
+        if (runner->stop) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "%s", stopped);
+        }
+        g_usleep(50000);
+    }
+    return true;
+}
+
+static bool begin(struct gb_runner *runner, struct gb_error *err)
+{
+    if (runner->resumed) {
+        return wait_for_lock(runner, err) &&
+               gb_simulation_open(runner->simulation, runner->directory,
+                                  GB_RUN_RECORDER_LAST, err) &&
+               gb_simulation_build(runner->simulation, err);
+    }
+    if (!gb_simulation_build(runner->simulation, err)) {
+        return false;
+    }
+    create_recorder(runner);
+    return true;
+}
+
+static void fail_to_begin(struct gb_runner *runner, const struct gb_error *err)
+{
+    struct gb_run_loop *loop = loop_of(runner);
+    gb_simulation_release(runner->simulation);
+    gb_run_loop_observe(loop, gb_run_loop_state(gb_run_loop_outcome(err)));
+    loop->snapshot.error = *err;
+    publish_snapshot(runner);
+}
+
+static void listen(struct gb_runner *runner)
+{
+    struct gb_simulation *simulation = runner->simulation;
+    gb_simulation_on_event(simulation, on_event, runner);
+    gb_simulation_on_point(simulation, on_point, runner);
+    gb_simulation_on_progress(simulation, on_progress, runner, 0.0);
+    gb_simulation_set_hooks(
+        simulation, &(struct gb_simulation_hooks){.between_slices = between_slices,
+                                                  .on_end = on_end,
+                                                  .on_record_error = on_record_error,
+                                                  .data = runner});
+}
+
+static void *engine_thread(void *data)
+{
+    struct gb_runner *runner = data;
+    struct gb_error err = {0};
+    listen(runner);
+    if (!begin(runner, &err)) {
+        fail_to_begin(runner, &err);
+        return NULL;
+    }
+    publish_state(runner, GB_RUN_RUNNING);
+    (void)gb_simulation_advance(runner->simulation, INT64_MAX,
+                                &err); /* in the snapshot */
+    publish_snapshot(runner);
+    gb_simulation_release(runner->simulation);
+    return NULL;
+}
+
+/* --- the follow thread ---------------------------------------------------------------- */
+
+/* Interval between two readings of the directory, s. */
+static const double follow_every_s = 0.4;
+/* Age of an unchanged status at which the lock is tested for a living engine, s. */
+static const double silence_s = 5.0;
+
+/* Share of the time in which states are read at most: that of a million particles takes
+ * seconds. */
+static const double state_share = 0.1;
+
+/* What the thread has seen. */
+struct seen {
+    double changed_s;      /* clock reading at the last change of the status */
+    GStatBuf state;        /* of the last state.h5 */
+    double read_s, cost_s; /* clock reading and seconds of its reading; 0: none */
+};
+
+/* Reads the directory into the snapshot and the curve.  True: its engine is gone. */
+static bool read_run(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = &loop_of(runner)->snapshot;
+    const int64_t events = shown->events;
+    struct gb_follow_engine engine = {0};
+    struct gb_error err = {0};
+    if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
+        !gb_follow_curve(runner->directory, &runner->params, runner->simulation->curve,
+                         &err)) {
+        if (shown->error.code == GB_OK) {
+            publish_event(runner, err.text);
+        }
+        shown->error = err;
+    }
+    const size_t points = gb_curve_count(runner->simulation->curve);
+    shown->now_valid = points > 0;
+    if (points > 0) {
+        shown->now = *gb_curve_at(runner->simulation->curve, points - 1);
+    }
+    if (shown->events > events && shown->event[0] != '\0') {
+        publish_event(runner, shown->event);
+    }
+    return gb_follow_engine_gone(&engine);
+}
+
+static void lose_directory(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = &loop_of(runner)->snapshot;
+    gb_error_set(&shown->error, GB_ERR_MACHINE,
+                 "%s: was moved or removed while it was shown", runner->directory);
+    publish_event(runner, shown->error.text);
+    shown->state = GB_RUN_FAILED;
+}
+
+/* Of an engine that has gone; where its files cannot be read, that is told already. */
+static void tell_end(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = &loop_of(runner)->snapshot;
+    const enum gb_status told = shown->error.code;
+    if (told == GB_OK || told == GB_ERR_CANCELLED) { /* none, or one of its status */
+        gb_error_set(&shown->error, GB_ERR_CANCELLED,
+                     "its engine has ended without a final status: t here or `greenbody "
+                     "resume %s` continues the run",
+                     runner->directory);
+        publish_event(runner, shown->error.text);
+    }
+}
+
+/* Reads the directory; false when no engine works there any more. */
+static bool refresh(struct gb_runner *runner, struct seen *seen)
+{
+    struct gb_snapshot *shown = &loop_of(runner)->snapshot;
+    const double seconds = shown->seconds;
+    const enum gb_run_state state = shown->state;
+    if (!g_file_test(runner->directory, G_FILE_TEST_IS_DIR)) {
+        lose_directory(runner);
+        return false;
+    }
+    /* again: its last status may have come after the first reading */
+    const bool gone =
+        read_run(runner) && shown->state <= GB_RUN_PAUSED && read_run(runner);
+    if (shown->seconds != seconds || shown->state != state) {
+        seen->changed_s = gb_clock_s();
+    }
+    if (shown->state <= GB_RUN_PAUSED &&
+        (gone || gb_clock_s() - seen->changed_s > silence_s) &&
+        !gb_rundir_busy(runner->directory)) {
+        tell_end(runner);
+        shown->state = GB_RUN_STOPPED;
+    }
+    return shown->state <= GB_RUN_PAUSED;
+}
+
+/* Files are replaced: another one has another number, time or size. */
+static bool is_same(const GStatBuf *a, const GStatBuf *b)
+{
+    return a->st_ino == b->st_ino && a->st_mtime == b->st_mtime &&
+           a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size;
+}
+
+/* Publishes the packing of a state.h5 that has not been shown.  One that cannot be read is
+ * an event, once. */
+static void show_state(struct gb_runner *runner, struct seen *seen)
+{
+    const double from_s = gb_clock_s();
+    const double wait_s = seen->cost_s / state_share;
+    char *path = g_build_filename(runner->directory, "state.h5", NULL);
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    GStatBuf now;
+    if ((seen->cost_s > 0.0 && from_s - seen->read_s < wait_s) ||
+        g_stat(path, &now) != 0 || is_same(&now, &seen->state)) {
+        g_free(path);
+        return;
+    }
+    if (gb_state_read(&state, path, &err)) {
+        publish_view_of(runner, state);
+    } else {
+        publish_event(runner, err.text);
+    }
+    gb_state_destroy(state);
+    g_free(path);
+    seen->state = now;
+    seen->read_s = gb_clock_s();
+    seen->cost_s = seen->read_s - from_s;
+}
+
+static void wait_for_next(struct gb_runner *runner)
+{
+    const double until = gb_clock_s() + follow_every_s;
+    while (!runner->stop && gb_clock_s() < until) {
+        drain(runner);
+        if (runner->store_wanted) {
+            publish_stored(runner);
+        }
+        g_usleep(100000);
+    }
+}
+
+static void *follow_thread(void *data)
+{
+    struct gb_runner *runner = data;
+    struct seen seen = {.changed_s = gb_clock_s()};
+    bool more = true;
+    while (more && !runner->stop) {
+        more = refresh(runner, &seen);
+        seen.cost_s = more ? seen.cost_s : 0.0; /* the last state is shown in any case */
+        show_state(runner, &seen);
+        publish_snapshot(runner);
+        if (more) {
+            wait_for_next(runner);
+        }
+    }
+    return NULL;
+}
+
+/* --- calls of the screen -------------------------------------------------------------- */
 
 static void free_runner(struct gb_runner *runner)
 {
@@ -49,17 +642,12 @@ static struct gb_runner *create(const struct gb_params *params, const char *dire
                : NULL;
 }
 
-struct gb_run_loop *gb_runner_loop(const struct gb_runner *runner)
-{
-    return &runner->simulation->loop;
-}
-
 static bool launch(struct gb_runner **out, struct gb_runner *runner,
                    void *(*work)(void *data), struct gb_error *err)
 {
     pthread_mutex_init(&runner->mutex, NULL);
     pthread_cond_init(&runner->wake, NULL);
-    gb_runner_publish_state(runner, GB_RUN_PACKING);
+    publish_state(runner, GB_RUN_PACKING);
     if (!gb_thread_start(&runner->thread, work, runner, "the engine thread", err)) {
         pthread_cond_destroy(&runner->wake);
         pthread_mutex_destroy(&runner->mutex);
@@ -109,14 +697,14 @@ bool gb_runner_create_fork(struct gb_runner **out, const char *changes,
     parent->forked = false;
     pthread_mutex_unlock(&parent->mutex);
     struct gb_runner *runner = wrap(simulation, directory, err);
-    return runner != NULL && launch(out, runner, gb_engine_thread, err);
+    return runner != NULL && launch(out, runner, engine_thread, err);
 }
 
 bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
                          const char *directory, struct gb_error *err)
 {
     struct gb_runner *runner = create(params, directory, err);
-    return runner != NULL && launch(out, runner, gb_engine_thread, err);
+    return runner != NULL && launch(out, runner, engine_thread, err);
 }
 
 bool gb_runner_resume(struct gb_runner **out, const char *directory, struct gb_error *err)
@@ -132,7 +720,7 @@ bool gb_runner_resume(struct gb_runner **out, const char *directory, struct gb_e
         return false;
     }
     runner->resumed = true;
-    return launch(out, runner, gb_engine_thread, err);
+    return launch(out, runner, engine_thread, err);
 }
 
 bool gb_runner_follow(struct gb_runner **out, const char *directory, struct gb_error *err)
@@ -141,7 +729,7 @@ bool gb_runner_follow(struct gb_runner **out, const char *directory, struct gb_e
     struct gb_runner *runner = gb_follow_params(directory, &params, err)
                                    ? create(&params, directory, err)
                                    : NULL;
-    return runner != NULL && launch(out, runner, gb_follow_thread, err);
+    return runner != NULL && launch(out, runner, follow_thread, err);
 }
 
 const char *gb_runner_directory(const struct gb_runner *runner)
@@ -225,10 +813,10 @@ const struct gb_params *gb_runner_params(const struct gb_runner *runner)
 bool gb_runner_event(struct gb_runner *runner, int64_t index, char *text, size_t size)
 {
     pthread_mutex_lock(&runner->mutex);
-    const bool kept = index >= 0 && index < runner->events &&
-                      runner->events - index <= GB_RUNNER_EVENTS;
+    const bool kept =
+        index >= 0 && index < runner->events && runner->events - index <= EVENTS;
     if (kept) {
-        snprintf(text, size, "%s", runner->event[index % GB_RUNNER_EVENTS]);
+        snprintf(text, size, "%s", runner->event[index % EVENTS]);
     }
     pthread_mutex_unlock(&runner->mutex);
     return kept;

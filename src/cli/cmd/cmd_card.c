@@ -88,8 +88,7 @@ static void print_result(const struct gb_card_study *study, const char *out)
         gb_visible_print(
             stdout,
             "%s path: misfit of p_x/p_z %s, of p_z %s %%, of density at the same p_z %s\n",
-            gb_card_paths[k].name,
-            gb_number_shown("%.3f", misfit->ratio, number[0]),
+            gb_card_paths[k].name, gb_number_shown("%.3f", misfit->ratio, number[0]),
             gb_number_shown("%.1f", 100.0 * misfit->pressure, number[1]),
             gb_number_shown("%.4f", misfit->density, number[2]));
     }
@@ -113,8 +112,8 @@ static bool perform(const struct request *request, char **words, const char *com
         take_options(&study->options, request, gb_preset_params(preset), err);
     if (good) {
         gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
-        good = gb_card_run(study, gb_preset_params(preset), request->jobs,
-                                 &callbacks, err) &&
+        good = gb_card_run(study, gb_preset_params(preset), request->jobs, &callbacks,
+                           err) &&
                gb_card_page_write(study, gb_preset_params(preset), command, request->out,
                                   err);
     }

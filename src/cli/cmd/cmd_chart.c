@@ -1,22 +1,136 @@
+#include <glib.h>
+#include <langinfo.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include <glib.h>
 
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/text/visible.h"
 #include "base/units.h"
-#include "cli/chart_plot.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "io/preset.h"
 #include "run/cost.h"
+#include "solve/relax/relax.h"
 #include "study/chart/chart_table.h"
 #include "study/chart/quantity_chart.h"
+#include "tui/plot/plot.h"
+
+enum { ROWS = 18, COLUMNS = 78 };
+
+/* Points (log10 of cost, error) of one relaxer, or, for NULL, of the Pareto front, sorted
+ * by cost.  Returns their number. */
+static size_t collect(const struct gb_chart_table *table, const char *relaxer, double *x,
+                      double *y)
+{
+    size_t count = 0;
+    for (size_t i = 1; i < table->rows; i++) {
+        const struct gb_chart_row *row = &table->row[i];
+        const bool shown =
+            relaxer ? strcmp(row->setting.relaxer, relaxer) == 0 : row->pareto;
+        if (!shown || !(row->bound > 0.0) || row->cpu_s <= 0.0 ||
+            row->setting.count != table->row[0].setting.count) {
+            continue;
+        }
+        size_t at = count++;
+        for (; at > 0 && x[at - 1] > log10(row->cpu_s); at--) {
+            x[at] = x[at - 1];
+            y[at] = y[at - 1];
+        }
+        x[at] = log10(row->cpu_s);
+        y[at] = row->bound;
+    }
+    return count;
+}
+
+static double smallest_scatter(const struct gb_chart_table *table, int pressures)
+{
+    double smallest = INFINITY;
+    for (int k = 0; k < pressures; k++) {
+        smallest = fmin(smallest, table->scatter[k]);
+    }
+    return isfinite(table->allowed) ? table->allowed : smallest;
+}
+
+static void draw(struct gb_plot *plot, const struct gb_chart_table *table, double level,
+                 double *x, double *y)
+{
+    static const char *const dynamic = "verlet"; /* no relaxer */
+    struct gb_plot_entry entry[8];
+    int entries = 0;
+    const size_t pareto = collect(table, NULL, x, y);
+    gb_plot_line(plot, &(struct gb_plot_series){
+                           .x = x, .y = y, .count = pareto, .ink = GB_PLOT_INK_SERIES});
+    const double ends[2] = {plot->x.low, plot->x.high}, same[2] = {level, level};
+    gb_plot_line(plot, &(struct gb_plot_series){
+                           .x = ends, .y = same, .count = 2, .ink = GB_PLOT_INK_DIM});
+    for (int m = 0; m < 6; m++) {
+        const struct gb_relaxer *const method = gb_relax_table()[m];
+        const char *name = method ? method->name : dynamic;
+        const size_t count = collect(table, name, x, y);
+        gb_plot_line(plot, &(struct gb_plot_series){.x = x,
+                                                    .y = y,
+                                                    .count = count,
+                                                    .ink = GB_PLOT_INK_SERIES + m,
+                                                    .marker = m + 1,
+                                                    .spacing = 1,
+                                                    .points = true});
+        if (count > 0) {
+            entry[entries] = (struct gb_plot_entry){GB_PLOT_INK_SERIES + m, m + 1, ""};
+            snprintf(entry[entries++].name, GB_PLOT_NAME, "%s", name);
+        }
+        if (!method) {
+            break;
+        }
+    }
+    gb_plot_legend(plot, entry, entries);
+}
+
+/* Error against CPU time as a plot in characters, with its legend; empty where fewer than
+ * two settings have errors.  g_string_free. */
+static GString *chart_plot(const struct gb_chart_table *table,
+                           const struct gb_chart_plan *plan)
+{
+    GString *text = g_string_new(NULL);
+    double *x = g_new(double, 2 * table->rows), *y = x + table->rows;
+    const double level = smallest_scatter(table, plan->pressures);
+    double x_ends[2] = {INFINITY, -INFINITY}, y_ends[2] = {level, level};
+    size_t count = 0;
+    for (size_t i = 1; i < table->rows; i++) {
+        const struct gb_chart_row *row = &table->row[i];
+        if (row->bound > 0.0 && row->cpu_s > 0.0) {
+            x_ends[0] = fmin(x_ends[0], log10(row->cpu_s));
+            x_ends[1] = fmax(x_ends[1], log10(row->cpu_s));
+            y_ends[0] = fmin(y_ends[0], row->bound);
+            y_ends[1] = fmax(y_ends[1], row->bound);
+            count++;
+        }
+    }
+    struct gb_plot plot;
+    gb_plot_init(&plot);
+    const bool unicode = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+    if (count > 1 && isfinite(level) &&
+        gb_plot_resize(&plot, ROWS, COLUMNS, unicode ? GB_PLOT_BRAILLE : GB_PLOT_ASCII,
+                       NULL)) {
+        gb_plot_axes(&plot, x_ends, y_ends, GB_PLOT_LOG, "log10 of CPU seconds",
+                     "|error| + standard error");
+        draw(&plot, table, level, x, y);
+        char *dump = gb_plot_dump(&plot);
+        g_string_append_printf(text, "\n%s", dump);
+        g_string_append(text,
+                        isfinite(table->allowed)
+                            ? "horizontal line: error limit\n"
+                            : "horizontal line: scatter between seeds, the smallest of "
+                              "all pressures\n");
+        g_free(dump);
+    }
+    gb_plot_finish(&plot);
+    g_free(x);
+    return text;
+}
 
 /* Of a mean density, by default. */
 #define STANDARD_ERROR 0.001
@@ -214,7 +328,7 @@ static bool conclude(struct chart *chart, struct gb_error *err)
         gb_chart_table_advise(&advice, &table, &chart->plan, chart->standard_error, err);
     if (good) {
         print_text(gb_chart_table_text(&table, &chart->plan));
-        print_text(gb_chart_plot(&table, &chart->plan));
+        print_text(chart_plot(&table, &chart->plan));
         print_text(gb_chart_table_results(&table, &chart->plan, &advice));
         if (chart->missing > 0) {
             gb_visible_print(
@@ -233,7 +347,8 @@ static bool conclude(struct chart *chart, struct gb_error *err)
 static void list_quantities(void)
 {
     gb_visible_put(stdout, "quantity            unit   study     meaning\n");
-    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities();
+         row->name != NULL; row++) {
         gb_visible_print(stdout, "%-18s  %-5s  %-8s  %s\n", row->name, row->unit,
                          row->study->name, row->meaning);
     }
@@ -307,8 +422,8 @@ static bool write_quantities(const struct chart *chart, const struct gb_quantity
         "half of the 95 %% interval of the default with %d cells; cost: processor time "
         "over the default's; settings in SI",
         chart->quantities.params.title, chart->command, wanted->study->cells);
-    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); good && row->name != NULL;
-         row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities();
+         good && row->name != NULL; row++) {
         struct gb_quantity_table table;
         if (row->study != wanted->study) {
             continue;

@@ -74,7 +74,7 @@ static bool print_scenes(const struct request *request, const struct gb_params *
         struct gb_params scene = *params;
         if (!set_varied(&scene, variation, i, err) ||
             !gb_law_table_compute(&request->rows, &scene, print_row, variation->values[i],
-                                 err)) {
+                                  err)) {
             return false;
         }
     }

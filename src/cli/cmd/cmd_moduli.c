@@ -1,14 +1,16 @@
+#include <errno.h>
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <glib.h>
-
+#include "base/file.h"
+#include "base/number.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
-#include "cli/moduli_folder.h"
+#include "cli/json_output.h"
 #include "cli/options.h"
-#include "cli/output/json_output.h"
-#include "cli/output/moduli_output.h"
 #include "cli/signals.h"
 #include "figures/states.h"
 #include "io/preset.h"
@@ -16,6 +18,219 @@
 #include "run/moduli/moduli_states.h"
 #include "scene/loading_kind.h"
 #include "scene/seed.h"
+
+/* "123.4" or "123.4 +- 0.5". */
+static void print_value(const struct gb_moduli_state *state, const char *column,
+                        int digits)
+{
+    const int k = gb_moduli_table_find(column);
+    const double error = gb_moduli_states_error(state, k);
+    char text[GB_NUMBER_ERROR_MAX];
+    if (!isfinite(gb_moduli_states_mean(state, k))) {
+        gb_visible_print(stdout, "-");
+        return;
+    }
+    if (error > 0.0) {
+        gb_number_error(gb_moduli_states_mean(state, k), error, 2, " +- ", text);
+    } else {
+        g_snprintf(text, sizeof text, "%.*g", digits, gb_moduli_states_mean(state, k));
+    }
+    gb_visible_print(stdout, "%s", text);
+}
+
+static double plain(const struct gb_moduli_state *state, const char *column)
+{
+    return gb_moduli_states_mean(state, gb_moduli_table_find(column));
+}
+
+static void print_matrix(const struct gb_moduli_state *state)
+{
+    static const char *const axes[] = {"xx", "yy", "zz", "yz", "xz", "xy"};
+    gb_visible_print(stdout, "C, GPa ");
+    for (int n = 0; n < 6; n++) {
+        gb_visible_print(stdout, "%11s", axes[n]);
+    }
+    gb_visible_put(stdout, "\n");
+    for (int m = 0; m < 6; m++) {
+        gb_visible_print(stdout, "    %s ", axes[m]);
+        for (int n = 0; n < 6; n++) {
+            gb_visible_print(stdout, "%11.5f", state->c_gpa[m][n] / state->count);
+        }
+        gb_visible_put(stdout, "\n");
+    }
+}
+
+static void print_line(const struct gb_moduli_state *state, const char *title,
+                       const char *const columns[][2], const char *unit)
+{
+    gb_visible_print(stdout, "%-15s", title);
+    for (int k = 0; columns[k][0] != NULL; k++) {
+        gb_visible_print(stdout, "%s%s ", k > 0 ? ", " : "", columns[k][1]);
+        print_value(state, columns[k][0], 5);
+    }
+    gb_visible_print(stdout, "%s%s\n", unit[0] ? " " : "", unit);
+}
+
+static void print_derived(const struct gb_moduli_state *state)
+{
+    static const char *const hill[][2] = {
+        {"K_GPa", "K"}, {"G_GPa", "G"}, {"E_GPa", "E"}, {NULL, NULL}};
+    static const char *const voigt[][2] = {
+        {"K_voigt_GPa", "K"}, {"G_voigt_GPa", "G"}, {NULL, NULL}};
+    static const char *const reuss[][2] = {
+        {"K_reuss_GPa", "K"}, {"G_reuss_GPa", "G"}, {NULL, NULL}};
+    static const char *const nu[][2] = {{"nu", "nu"}, {NULL, NULL}};
+    static const char *const axial[][2] = {
+        {"axial_C11_GPa", "C11"}, {"axial_C12_GPa", "C12"}, {"axial_C13_GPa", "C13"},
+        {"axial_C33_GPa", "C33"}, {"axial_C44_GPa", "C44"}, {NULL, NULL}};
+    static const char *const misfit[][2] = {{"axial_misfit", "share of C"}, {NULL, NULL}};
+    static const char *const waves[][2] = {{"vp_z_m_s", "P along z"},
+                                           {"vp_x_m_s", "across"},
+                                           {"vs_z_m_s", "S along z"},
+                                           {"vs_x_m_s", "across"},
+                                           {NULL, NULL}};
+    print_line(state, "Hill", hill, "GPa");
+    print_line(state, "", nu, "");
+    print_line(state, "Voigt", voigt, "GPa");
+    print_line(state, "Reuss", reuss, "GPa");
+    print_line(state, "axis z", axial, "GPa");
+    print_line(state, "  left out", misfit, "");
+    print_line(state, "waves", waves, "m/s");
+}
+
+/* Moduli of a state on stdout, to be read: C in full, averages, wave speeds, elastic
+ * range; with standard errors over replicas. */
+static void moduli_output_state(const struct gb_moduli_state *state)
+{
+    gb_visible_print(stdout, "density        ");
+    print_value(state, "density", 6);
+    gb_visible_print(stdout, ", p ");
+    print_value(state, "p_MPa", 6);
+    gb_visible_print(stdout, " MPa (x %.5g, y %.5g, z %.5g)\n", plain(state, "px_MPa"),
+                     plain(state, "py_MPa"), plain(state, "pz_MPa"));
+    if (state->count + state->missing > 1) {
+        gb_visible_print(stdout,
+                         "replicas       %d of %d, errors are standard errors of the "
+                         "mean\n",
+                         state->count, state->count + state->missing);
+    }
+    gb_visible_print(
+        stdout,
+        "probe          strain %.3g; half of it differs by %.1e of the largest C\n",
+        plain(state, "probe_strain"), plain(state, "sizes_differ"));
+    gb_visible_print(
+        stdout, "state          residual %.1e, relaxed by %.2g d (rms), %.2g d at most\n",
+        plain(state, "residual"), plain(state, "moved_rms_d"),
+        plain(state, "moved_most_d"));
+    if (isfinite(plain(state, "elastic_range"))) {
+        gb_visible_print(stdout, "elastic range  %s%.3g (a secant has lost 5 %%)\n",
+                         state->range_open ? "above " : "",
+                         plain(state, "elastic_range"));
+    }
+    print_matrix(state);
+    print_derived(state);
+}
+
+/* The folder of `greenbody moduli --out`: moduli.csv, and of a preset preset.ini. */
+struct moduli_folder {
+    const char *path;    /* NULL: none, and nothing is written */
+    const char *command; /* as typed, for the table's comment */
+    GArray *earlier;     /* struct gb_moduli_state, of the file as it was */
+};
+
+static void moduli_folder_init(struct moduli_folder *folder, const char *path,
+                               const char *command)
+{
+    *folder = (struct moduli_folder){
+        path, command, g_array_new(FALSE, TRUE, sizeof(struct gb_moduli_state))};
+}
+
+static void moduli_folder_finish(struct moduli_folder *folder)
+{
+    g_array_free(folder->earlier, TRUE);
+}
+
+static bool exists(const struct moduli_folder *folder, const char *name)
+{
+    char *path = g_build_filename(folder->path, name, NULL);
+    const bool found = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return found;
+}
+
+static bool make(const struct moduli_folder *folder, struct gb_error *err)
+{
+    return g_mkdir_with_parents(folder->path, 0777) == 0 ||
+           gb_error_set(err, GB_ERR_MACHINE, "--out %.300s: cannot be made: %s",
+                        folder->path, g_strerror(errno));
+}
+
+/* Makes the folder of a preset and writes preset.ini.  Errors: GB_ERR_INPUT when it has a
+ * preset or moduli already, GB_ERR_MACHINE. */
+static bool moduli_folder_begin(const struct moduli_folder *folder,
+                                struct gb_preset *preset, struct gb_error *err)
+{
+    static const char *const names[] = {GB_MODULI_STATES_FILE, "preset.ini"};
+    if (folder->path == NULL) {
+        return true;
+    }
+    for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
+        if (exists(folder, names[k])) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "--out %.300s: holds %s already; choose another folder",
+                                folder->path, names[k]);
+        }
+    }
+    char *path = g_build_filename(folder->path, "preset.ini", NULL);
+    const bool good =
+        make(folder, err) && gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, err);
+    g_free(path);
+    return good;
+}
+
+/* The folder of a run: its own directory, whose table is read to grow, or a folder without
+ * moduli.  Errors: as above, and of gb_moduli_states_read. */
+static bool moduli_folder_open(struct moduli_folder *folder, const char *directory,
+                               struct gb_error *err)
+{
+    if (folder->path == NULL) {
+        return true;
+    }
+    char *path = g_build_filename(folder->path, GB_MODULI_STATES_FILE, NULL);
+    bool good = make(folder, err);
+    if (good && g_file_test(path, G_FILE_TEST_EXISTS)) {
+        good = gb_file_is_same(directory, folder->path)
+                   ? gb_moduli_states_read(folder->earlier, path, err)
+                   : gb_error_set(err, GB_ERR_INPUT,
+                                  "--out %.300s: holds %s already; choose another folder",
+                                  folder->path, GB_MODULI_STATES_FILE);
+    }
+    good = good && gb_file_check_target(path, err);
+    g_free(path);
+    return good;
+}
+
+/* moduli.csv of the earlier states and these (struct gb_moduli_state). */
+static bool moduli_folder_write(const struct moduli_folder *folder, const GArray *states,
+                                struct gb_error *err)
+{
+    if (folder->path == NULL) {
+        return true;
+    }
+    GArray *all = g_array_new(FALSE, FALSE, sizeof(struct gb_moduli_state));
+    g_array_append_vals(all, folder->earlier->data, folder->earlier->len);
+    g_array_append_vals(all, states->data, states->len);
+    gb_moduli_states_sort(all);
+    char *comment = g_strdup_printf("greenbody %s\n%s", GB_VERSION, folder->command);
+    char *path = g_build_filename(folder->path, GB_MODULI_STATES_FILE, NULL);
+    GString *text = gb_moduli_states_csv(all, comment);
+    const bool good = gb_file_replace(path, text->str, text->len, err);
+    g_string_free(text, TRUE);
+    g_free(path);
+    g_free(comment);
+    g_array_free(all, TRUE);
+    return good;
+}
 
 enum { REPLICAS_MAX = 1000 };
 
@@ -30,7 +245,7 @@ struct request {
 
 struct collector {
     const struct request *request;
-    struct gb_moduli_folder folder; /* of --out */
+    struct moduli_folder folder; /* of --out */
     /* struct gb_moduli_state: of a preset the points asked for and the end, each the same
      * for all replicas; of a run directory its states. */
     GArray *state;
@@ -121,7 +336,7 @@ static bool add_row(void *data, const struct gb_moduli_table_row *row,
     }
     GArray *list = list_states(collector);
     const bool good =
-        list->len == 0 || gb_moduli_folder_write(&collector->folder, list, err);
+        list->len == 0 || moduli_folder_write(&collector->folder, list, err);
     g_array_free(list, TRUE);
     return good;
 }
@@ -148,7 +363,7 @@ static void print_states(const struct request *request, const GArray *states)
         if (s > 0) {
             gb_visible_put(stdout, "\n");
         }
-        gb_moduli_output_state(&g_array_index(states, struct gb_moduli_state, s));
+        moduli_output_state(&g_array_index(states, struct gb_moduli_state, s));
     }
 }
 
@@ -220,7 +435,7 @@ static bool probe_preset(const struct request *request, const struct gb_params *
     }
     GArray *list = list_states(collector);
     const bool good =
-        list->len == 0 || gb_moduli_folder_write(&collector->folder, list, err);
+        list->len == 0 || moduli_folder_write(&collector->folder, list, err);
     g_array_free(list, TRUE);
     return good && check_reached(collector, &why, err);
 }
@@ -245,7 +460,7 @@ static bool run_preset(const struct request *request, char **words,
     const struct gb_params *params = gb_preset_params(preset);
     const bool done = gb_loading_kind_check_cell(params, "moduli", err) &&
                       check_replicas(request, params, err) &&
-                      gb_moduli_folder_begin(&collector->folder, preset, err) &&
+                      moduli_folder_begin(&collector->folder, preset, err) &&
                       probe_preset(request, params, collector, err);
     gb_preset_destroy(preset);
     return done;
@@ -256,7 +471,7 @@ static bool run_directory(const struct request *request, const char *directory,
                           struct collector *collector, struct gb_error *err)
 {
     const struct gb_moduli_table_sink sink = sink_of(collector);
-    GPtrArray *paths = gb_moduli_folder_open(&collector->folder, directory, err)
+    GPtrArray *paths = moduli_folder_open(&collector->folder, directory, err)
                            ? gb_states_select(directory, &request->points, err)
                            : NULL;
     bool good = paths != NULL;
@@ -288,7 +503,7 @@ static int perform(struct request *request, char **words)
         done = gb_error_set(&err, GB_ERR_INPUT,
                             "moduli of a run directory takes no keys and no --replicas");
     }
-    gb_moduli_folder_init(&collector.folder, request->out, request->command);
+    moduli_folder_init(&collector.folder, request->out, request->command);
     collector.state = g_array_new(FALSE, TRUE, sizeof(struct gb_moduli_state));
     done = done && (directory ? run_directory(request, words[0], &collector, &err)
                               : run_preset(request, words, &collector, &err));
@@ -298,7 +513,7 @@ static int perform(struct request *request, char **words)
     }
     g_array_free(list, TRUE);
     g_array_free(collector.state, TRUE);
-    gb_moduli_folder_finish(&collector.folder);
+    moduli_folder_finish(&collector.folder);
     if (done) {
         return 0;
     }

@@ -1,26 +1,258 @@
+#include <errno.h>
+#include <glib.h>
+#include <glib/gstdio.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-
-#include <glib.h>
 
 #include "base/alloc.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/pack/pack_bed.h"
-#include "cli/pack/pack_percolation.h"
 #include "cli/signals.h"
 #include "figures/report/packing.h"
+#include "greenbody/params.h"
+#include "greenbody/status.h"
 #include "io/preset.h"
 #include "io/rundir.h"
+#include "io/state/state.h"
+#include "measure/fit/average.h"
 #include "measure/percolation.h"
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
 #include "run/experiment.h"
 #include "scene/loading_kind.h"
+#include "scene/model.h"
+#include "scene/seed.h"
+
+/* `greenbody pack --percolation CELLS`: the number of particles at which the growing cluster
+ * percolates, of cells whose seeds count up from that of the scene, as CSV on stdout with
+ * mean, standard error and standard deviation. */
+
+enum { GB_PACK_PERCOLATION_CELLS = 100000 }; /* most */
+
+/* Density of count particles in the cell of the model. */
+static double density_of(const struct gb_model *model, double count)
+{
+    const double particle = model->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
+    return particle * count / (model->edges[0] * model->edges[1] * model->edges[2]);
+}
+
+static bool find(const struct gb_params *params, struct gb_model *model, double *count,
+                 struct gb_error *err)
+{
+    int64_t particles = 0;
+    if (!gb_model_init(model, params, err)) {
+        return false;
+    }
+    struct gb_chain_growth grow = gb_chain_growth_from_model(model);
+    grow.cancelled = gb_signals_cancelled;
+    if (!gb_percolation_find(&grow, &particles, err)) {
+        return false;
+    }
+    *count = (double)particles;
+    return true;
+}
+
+static void print_row(const struct gb_model *model, double count)
+{
+    gb_visible_print(stdout, "%" PRIu64 ",%.0f,%.6f\n", model->seed.value, count,
+                     density_of(model, count));
+}
+
+static void print_mean(const struct gb_model *model, const double *count, int cells)
+{
+    double mean = NAN;
+    double error = NAN;
+    gb_average_values(count, (size_t)cells, &mean, &error);
+    gb_visible_print(stdout, "# mean %.6g particles, density %.4f", mean,
+                     density_of(model, mean));
+    if (cells > 1) {
+        gb_visible_print(stdout, "; standard error %.2g, %.1g; standard deviation %.3g",
+                         error, density_of(model, error), error * sqrt((double)cells));
+    }
+    gb_visible_print(stdout, "; %d cell%s of %.5g x ", cells, cells > 1 ? "s" : "",
+                     model->edges[0]);
+    if (model->dimension == 3) {
+        gb_visible_print(stdout, "%.5g x ", model->edges[1]);
+    }
+    gb_visible_print(stdout, "%.5g d\n", model->edges[2]);
+}
+
+/* Errors: GB_ERR_INPUT (lattices, those of gb_percolation_find, stdout cannot be written). */
+static bool pack_percolation(const struct gb_params *params, int cells,
+                             struct gb_error *err)
+{
+    struct gb_params scene = *params;
+    struct gb_model model;
+    double *count = g_new(double, (gsize)cells);
+    bool good = gb_seed_matters(params) ||
+                gb_error_set(err, GB_ERR_INPUT,
+                             "--percolation: expected structure.kind = grown and no "
+                             "structure.from: other structures do not grow");
+    for (int k = 0; k < cells && good; k++) {
+        scene.seed = params->seed + (uint64_t)k;
+        good = find(&scene, &model, &count[k], err);
+        if (good && k == 0) {
+            gb_visible_put(
+                stdout,
+                "# particles at which the growing cluster joins its images along all "
+                "axes, P1 section III\nseed,particles,density\n");
+        }
+        if (good) {
+            print_row(&model, count[k]);
+        }
+    }
+    if (good) {
+        print_mean(&model, count, cells);
+        good = fflush(stdout) == 0 || gb_options_output_failed(err);
+    }
+    g_free(count);
+    return good;
+}
+
+/* A bed of a die scene, poured, settled and flattened, as `run` begins to press it. */
+struct gb_pack_bed {
+    struct gb_state *state;
+    GPtrArray *filling; /* struct gb_state of the powder that falls, in order */
+};
+
+enum { GB_PACK_BED_STATES = 1000 };
+
+/* Time steps between two looks at the time and at signals: about 0.1 s. */
+static const int64_t slice = 500;
+
+static void destroy_state(void *state)
+{
+    gb_state_destroy(state);
+}
+
+/* Steps so far number the states of the filling, which precede all recorded points. */
+static bool take(const struct gb_experiment *experiment, struct gb_state **out,
+                 struct gb_error *err)
+{
+    if (!gb_experiment_state(experiment, out, err)) {
+        return false;
+    }
+    (*out)->point.step = gb_experiment_evaluations(experiment);
+    return true;
+}
+
+/* Keeps a state when it is time for one. */
+static bool keep(struct gb_pack_bed *bed, const struct gb_experiment *experiment,
+                 double every_s, struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    if (bed->filling->len >= GB_PACK_BED_STATES) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--every: more than %d states of the filling; accepted a longer "
+            "time",
+            GB_PACK_BED_STATES);
+    }
+    if (!take(experiment, &state, err)) {
+        return false;
+    }
+    if (state->point.time_s >= every_s * (bed->filling->len + 1)) {
+        g_ptr_array_add(bed->filling, state);
+    } else {
+        gb_state_destroy(state);
+    }
+    return true;
+}
+
+/* Prints the events; true when one says that all powder is in the die. */
+static bool is_poured(struct gb_experiment *experiment)
+{
+    char text[GB_EVENT_TEXT];
+    bool poured = false;
+    while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
+        gb_visible_line(stderr, "  %s", text);
+        poured = poured || g_str_has_prefix(text, "poured");
+    }
+    return poured;
+}
+
+static bool fill(struct gb_pack_bed *bed, struct gb_experiment *experiment,
+                 double every_s, struct gb_error *err)
+{
+    bool keeping = every_s > 0.0;
+    for (;;) {
+        const enum gb_step_outcome outcome =
+            gb_experiment_advance(experiment, slice, err);
+        if (outcome == GB_STEP_STOPPED) {
+            return false;
+        }
+        keeping = !is_poured(experiment) && keeping;
+        if (outcome != GB_STEP_MORE) {
+            return take(experiment, &bed->state, err);
+        }
+        if (gb_signals_cancelled(NULL)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "filling cancelled");
+        }
+        if (keeping && !keep(bed, experiment, every_s, err)) {
+            return false;
+        }
+    }
+}
+
+/* every_s   simulated time between kept states until all powder is poured; 0: none
+ * Prints a line to stderr when a stage of the filling ends.  Errors: GB_ERR_INPUT (more than
+ * GB_PACK_BED_STATES states), those of the run, GB_ERR_CANCELLED by a signal. */
+static bool pack_bed_fill(struct gb_pack_bed *bed, const struct gb_params *params,
+                          double every_s, struct gb_error *err)
+{
+    struct gb_experiment *experiment = NULL;
+    *bed = (struct gb_pack_bed){.filling = g_ptr_array_new_with_free_func(destroy_state)};
+    if (!gb_experiment_create(&experiment, params, gb_signals_cancelled, NULL, err)) {
+        return false;
+    }
+    const bool filled = fill(bed, experiment, every_s, err);
+    gb_experiment_destroy(experiment);
+    return filled;
+}
+
+static void pack_bed_finish(struct gb_pack_bed *bed)
+{
+    if (bed->filling != NULL) {
+        g_ptr_array_unref(bed->filling);
+    }
+    *bed = (struct gb_pack_bed){0};
+}
+
+/* The states of the filling as DIRECTORY/snapshots/filling-000001.h5 ... */
+static bool pack_bed_write(const struct gb_pack_bed *bed, const char *directory,
+                           struct gb_error *err)
+{
+    char *folder = g_build_filename(directory, "snapshots", NULL);
+    bool good = bed->filling == NULL || bed->filling->len == 0 ||
+                g_mkdir(folder, 0777) == 0 || errno == EEXIST ||
+                gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made: %s", folder,
+                             g_strerror(errno));
+    for (guint k = 0; good && bed->filling != NULL && k < bed->filling->len; k++) {
+        char *path = g_strdup_printf("%s/filling-%06u.h5", folder, k + 1);
+        good = gb_state_write(g_ptr_array_index(bed->filling, k), NULL, path, err);
+        g_free(path);
+    }
+    g_free(folder);
+    return good;
+}
+
+/* Particles, height, densities and coordination on stdout. */
+static void pack_bed_print(const struct gb_state *state)
+{
+    const struct gb_point *point = &state->point;
+    gb_visible_print(stdout, "particles      %" PRId64 ", seed %" PRIu64 "\n",
+                     state->count, state->seed);
+    gb_visible_print(stdout, "die            %.5g um wide, powder %.5g um high\n",
+                     2e6 * state->die_radius * state->metre_per_length,
+                     1e6 * point->height_m);
+    gb_visible_print(stdout, "density        %.6g\n", point->density);
+    gb_visible_print(stdout, "central        %.6g\n", point->central);
+    gb_visible_print(stdout, "coordination   %.6g\n", point->coordination);
+}
 
 /* Width of the bins of g(r), d: it resolves the peak of touching particles and the edges
  * at r = sqrt(3) and 2. */
@@ -52,7 +284,8 @@ static bool check_options(const struct pack *pack, struct gb_error *err)
     const bool searches = pack->percolation != NOT_GIVEN;
     if (searches &&
         (pack->percolation < 1 || pack->percolation > GB_PACK_PERCOLATION_CELLS)) {
-        return gb_error_set(err, GB_ERR_INPUT, "--percolation %d: must be between 1 and %d cells",
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--percolation %d: must be between 1 and %d cells",
                             pack->percolation, GB_PACK_PERCOLATION_CELLS);
     }
     if (searches && (pack->directory != NULL || pack->every != NULL)) {
@@ -137,7 +370,7 @@ static bool write_packing(const struct pack *pack, struct gb_error *err)
         return false;
     }
     if (!gb_packing_write(&pack->packing, pack->directory, err) ||
-        !gb_pack_bed_write(&pack->bed, pack->directory, err)) {
+        !pack_bed_write(&pack->bed, pack->directory, err)) {
         gb_rundir_remove(&dir);
         return false;
     }
@@ -193,12 +426,12 @@ static void print_summary(const struct gb_packing *packing, const char *director
 static bool pack_bed(struct pack *pack, struct gb_error *err)
 {
     const bool done =
-        gb_pack_bed_fill(&pack->bed, &pack->packing.params, pack->every_s, err);
+        pack_bed_fill(&pack->bed, &pack->packing.params, pack->every_s, err);
     pack->packing.state = pack->bed.state;
     if (!done || !write_packing(pack, err)) {
         return false;
     }
-    gb_pack_bed_print(pack->packing.state);
+    pack_bed_print(pack->packing.state);
     if (pack->bed.filling->len > 0) {
         gb_visible_print(stdout, "filling        %u states\n", pack->bed.filling->len);
     }
@@ -219,7 +452,7 @@ static bool pack_cell(struct pack *pack, struct gb_error *err)
 static bool run(struct pack *pack, struct gb_error *err)
 {
     if (pack->percolation != NOT_GIVEN) {
-        return gb_pack_percolation(&pack->packing.params, pack->percolation, err);
+        return pack_percolation(&pack->packing.params, pack->percolation, err);
     }
     return is_bed(pack) ? pack_bed(pack, err) : pack_cell(pack, err);
 }
@@ -228,7 +461,7 @@ static void finish(struct pack *pack)
 {
     gb_alloc_free(pack->packing.g);
     gb_state_destroy(pack->packing.state);
-    gb_pack_bed_finish(&pack->bed);
+    pack_bed_finish(&pack->bed);
     gb_preset_destroy(pack->preset);
     g_free(pack->directory);
     g_free(pack->every);

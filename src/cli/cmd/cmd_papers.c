@@ -116,8 +116,8 @@ static bool write_results(const struct command *command, const char *line,
         write_text(command, "runs.csv", gb_papers_plan_runs(&command->plan), err) &&
         write_text(command, "papers.csv", gb_papers_table(&results), err) &&
         write_text(command, "papers.md",
-                   gb_papers_text(&results, &command->numbers, &command->plan,
-                                       figures, count, line),
+                   gb_papers_text(&results, &command->numbers, &command->plan, figures,
+                                  count, line),
                    err);
     gb_papers_figures_finish(figures, count);
     gb_papers_finish(&results);

@@ -111,12 +111,11 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         gb_visible_put(stdout, "method     p, MPa  density  damping    theory  measured  "
                                "    used  margin\n");
     }
-    gb_visible_print(stdout,
-                     "%-8s  %7.4g  %7.4f  %7.2g  %8.4g  %8.4g  %8.4g  %6.2f  %s%s\n",
-                     row->method, 1e-6 * row->p_pa, row->density, row->damping,
-                     row->theory, row->measured, row->used, margin,
-                     gb_stability_stable(row) ? "stable" : "unstable",
-                     row->in_use ? ", in use" : "");
+    gb_visible_print(
+        stdout, "%-8s  %7.4g  %7.4f  %7.2g  %8.4g  %8.4g  %8.4g  %6.2f  %s%s\n",
+        row->method, 1e-6 * row->p_pa, row->density, row->damping, row->theory,
+        row->measured, row->used, margin,
+        gb_stability_stable(row) ? "stable" : "unstable", row->in_use ? ", in use" : "");
     fflush(stdout);
     if (row->in_use && !(margin >= scene->least)) {
         scene->least = margin;

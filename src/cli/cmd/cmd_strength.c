@@ -27,11 +27,11 @@ static void print_summary(const struct gb_strength_study *study)
         gb_study_text_interval(weibull, "", "%.3g", &modulus, 1.0);
         gb_number_error(1e-6 * r->strength_pa, 1e-6 * r->strength_error_pa, 2, " +- ",
                         strength);
-        gb_visible_print(
-            stdout, "%7g %-3s  %-11s  %17s  %8s  %s\n",
-            r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
-            r->mark.by_density ? "" : "MPa", gb_strength_tests[r->test].name,
-            strength, gb_number_shown("%.3g", 100.0 * r->strain, strain), weibull->str);
+        gb_visible_print(stdout, "%7g %-3s  %-11s  %17s  %8s  %s\n",
+                         r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
+                         r->mark.by_density ? "" : "MPa", gb_strength_tests[r->test].name,
+                         strength, gb_number_shown("%.3g", 100.0 * r->strain, strain),
+                         weibull->str);
         g_string_free(weibull, TRUE);
     }
 }
@@ -41,8 +41,8 @@ static bool conclude(struct gb_compact_options *common,
 {
     if (!gb_compact_options_keep_preset(common, err) ||
         !gb_strength_write(study, common->directory,
-                                 gb_preset_params(common->preset)->title, common->command,
-                                 err)) {
+                           gb_preset_params(common->preset)->title, common->command,
+                           err)) {
         return false;
     }
     print_summary(study);
@@ -60,7 +60,7 @@ static bool perform(struct gb_compact_options *common, char **words, char **sets
     const bool good =
         gb_compact_options_begin(common, words, sets, &options.marks, err) &&
         gb_strength_run(&study, gb_preset_params(common->preset), &options,
-                              common->directory, common->jobs, &common->callbacks, err) &&
+                        common->directory, common->jobs, &common->callbacks, err) &&
         conclude(common, &study, err);
     gb_strength_finish(&study);
     return good;

@@ -153,9 +153,9 @@ static bool write_sensitivities(struct command *command, struct gb_error *err)
     bool good = gb_sensitivity_init(&sensitivity, &command->sweep, err);
     if (good) {
         GString *text = gb_sensitivity_lines(&sensitivity, &command->sweep);
-        good = gb_param_sweep_put(
-            command->request->out, "sensitivity.csv",
-            gb_sensitivity_table(&sensitivity, &command->sweep), err);
+        good =
+            gb_param_sweep_put(command->request->out, "sensitivity.csv",
+                               gb_sensitivity_table(&sensitivity, &command->sweep), err);
         gb_visible_put(stdout, text->str);
         g_string_free(text, TRUE);
     }

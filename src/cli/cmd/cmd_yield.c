@@ -49,9 +49,8 @@ static bool conclude(struct request *request, const struct gb_yield_study *study
 {
     struct gb_compact_options *common = &request->common;
     if (!gb_compact_options_keep_preset(common, err) ||
-        !gb_yield_write(study, common->directory,
-                              gb_preset_params(common->preset)->title, common->command,
-                              err)) {
+        !gb_yield_write(study, common->directory, gb_preset_params(common->preset)->title,
+                        common->command, err)) {
         return false;
     }
     print_summary(study);
@@ -65,13 +64,12 @@ static bool perform(struct request *request, char **words, char **sets,
     struct gb_yield_study study = {0};
     request->yield.offset = 0.01 * request->offset_percent;
     request->yield.replicas = request->common.replicas;
-    bool good =
-        gb_compact_options_begin(&request->common, words, sets, &request->yield.marks,
-                                 err) &&
-        gb_yield_run(&study, gb_preset_params(request->common.preset),
-                           &request->yield, request->common.directory,
-                           request->common.jobs, &request->common.callbacks, err) &&
-        conclude(request, &study, err);
+    bool good = gb_compact_options_begin(&request->common, words, sets,
+                                         &request->yield.marks, err) &&
+                gb_yield_run(&study, gb_preset_params(request->common.preset),
+                             &request->yield, request->common.directory,
+                             request->common.jobs, &request->common.callbacks, err) &&
+                conclude(request, &study, err);
     gb_yield_finish(&study);
     return good;
 }

@@ -1,4 +1,4 @@
-#include "cli/output/json_output.h"
+#include "cli/json_output.h"
 
 #include <json-glib/json-glib.h>
 #include <stdbool.h>
