@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The tables of docs/manual.md name the commands and keys that the program has.
+"""docs/manual.md names the commands and keys that the program has.
 
 Usage: pages.py SOURCE_DIR GREENBODY
 
-Every command has a line of the table of commands, and every line a command; so has every exit
-status.  Every key of the
-table of keys, which is a selection, is a key of the workbench.  Figures, commands, presets and tests
-that the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
+The table of commands has every command and no other, and the table of exit statuses every status.
+The manual describes a selection of the keys: each code span of one character, outside the table of
+the ten tasks, is a key of the workbench.  Figures, commands, presets and tests that the pages name
+exist, and docs/papers.md has every figure whose source is one of the papers.
 Every picture of assets is shown by a page and has a row of assets/README.md.  Links lead to files and
 headings that exist.
 """
@@ -24,13 +24,13 @@ def asked(greenbody, option):
     return done.stdout.splitlines()
 
 
-def rows(text, header):
-    """First cells of the table that begins with this line."""
+def rows(text, header, column=0):
+    """Cells of a column of the table that begins with this line."""
     lines = text.splitlines()
     for line in lines[lines.index(header) + 2:]:
         if not line.startswith('|'):
             return
-        yield line.split('|')[1]
+        yield line.split('|')[1 + column]
 
 
 PICTURES = '| picture | runs, then the command with `-o` and its file |'
@@ -148,17 +148,19 @@ def main():
     commands = {line.split()[0] for line in asked(sys.argv[2], '--commands')}
     # the first ten columns are the names: "PgUp [", "^L"
     keys = {name for line in asked(sys.argv[2], '--keys') for name in line[:10].split()}
-    named = {word for cell in rows(text, '| command | does |')
+    named = {word for cell in rows(text, '| to do | command | page |', 1)
              for word in re.findall(r'`greenbody ([a-z]+)', cell)}
-    pressed = {key for cell in rows(text, '| key | does |') for key in re.findall(r'`(.+?)`', cell)}
+    tasks = re.compile(r'^\| [0-9]+ \| .*', re.MULTILINE)
+    pressed = set(re.findall(r'(?<!`)`([^`\s])`(?!`)', tasks.sub('', text)))
     wrong = [f'no line for greenbody {name}' for name in sorted(commands - named)]
     wrong += [f'there is no command {name}' for name in sorted(named - commands)]
     wrong += [f'there is no key {key}' for key in sorted(pressed - keys)]
     statuses = {line.split()[0] for line in asked(sys.argv[2], '--exit-statuses')}
-    told = {cell.strip() for cell in rows(text, '| exit status | meaning |')}
-    wrong += [f'exit status {status} is in one table only' for status in sorted(statuses ^ told)]
-    if not named or not pressed:
-        wrong.append('a table is empty')
+    described = {cell.strip() for cell in rows(text, '| exit status | meaning |')}
+    wrong += [f'exit status {status} is in one table only'
+              for status in sorted(statuses ^ described)]
+    if not named or len(pressed) < 20:
+        wrong.append('commands or keys are not found')
     wrong = [f'docs/manual.md: {line}' for line in wrong]
     known = figures(sys.argv[2])
     wrong += [f'docs/{line}' for line in wrong_pages(pathlib.Path(sys.argv[1]), known, commands)]
