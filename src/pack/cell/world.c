@@ -80,7 +80,7 @@ void gb_world_destroy(struct gb_world *world)
         return;
     }
     finish_engine(&world->engine);
-    gb_contact_carry_finish(&world->carry);
+    gb_engine_lists_carry_finish(&world->carry);
     gb_alloc_free(world->coordination);
     gb_alloc_free(world->virial);
     gb_alloc_free(world);

@@ -2,7 +2,7 @@
  * or the lists rebuilt, and the sweep repeated. */
 #include <math.h>
 
-#include "pack/cell/engine_lists.h"
+#include "pack/list/engine_lists.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/kernel/sweep.h"
@@ -15,7 +15,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
                                struct gb_error *err)
 {
     struct gb_engine *engine = &world->engine;
-    if (!history && !gb_contact_carry_note(&world->carry, engine, err)) {
+    if (!history && !gb_engine_lists_carry_note(&world->carry, engine, err)) {
         return false;
     }
     gb_f32_convert_synchronise(engine);
@@ -27,7 +27,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
     if (history) {
         gb_contact_history_read(history, engine);
     } else {
-        gb_contact_carry_move(&world->carry, engine);
+        gb_engine_lists_carry_move(&world->carry, engine);
     }
     for (int64_t b = 0; b < gb_blocks_count(engine->particles.count); b++) {
         engine->check[b].displacement = 0.0; /* also of a velocity update before this */

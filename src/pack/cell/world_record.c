@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "pack/cell/engine_lists.h"
+#include "pack/list/engine_lists.h"
 #include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"

@@ -5,7 +5,6 @@
 #include "pack/f32/f32_convert.h"
 #include "pack/f32/integrate_f32_tile.h"
 #include "pack/list/blocks.h"
-#include "pack/list/engine_blocks.h"
 #include "pack/list/list_check.h"
 
 _Static_assert((int)SUMMED % (int)TILE == 0 && (int)GB_BLOCKS_SIZE % (int)SUMMED == 0,
@@ -115,7 +114,7 @@ static void update_item(void *data, int64_t b)
 static void update_all(struct gb_engine *engine, const struct pass *pass)
 {
     struct update update = {engine, pass};
-    gb_engine_blocks_run(engine, update_item, &update);
+    gb_blocks_run(engine, update_item, &update);
 }
 
 bool gb_integrate_f32_in_use(const struct gb_world *world)

@@ -9,7 +9,6 @@
 #include "pack/kernel/sweep_f32.h"
 #include "pack/kernel/sweep_f64.h"
 #include "pack/list/blocks.h"
-#include "pack/list/engine_blocks.h"
 #include "pack/list/list_check.h"
 
 static void sweep_block(struct gb_engine *engine, int64_t b)
@@ -87,8 +86,8 @@ static void run_blocks(struct gb_engine *engine, int64_t blocks,
             collect_block(engine, b, along);
         }
     } else {
-        gb_engine_blocks_run(engine, sweep_item, &sweep);
-        gb_engine_blocks_run(engine, collect_item, &sweep);
+        gb_blocks_run(engine, sweep_item, &sweep);
+        gb_blocks_run(engine, collect_item, &sweep);
     }
 }
 
@@ -126,7 +125,7 @@ static bool sweep(struct gb_engine *engine, struct gb_sweep_along along)
     }
     if (!gb_engine_state_moved(&engine->state)) {
         gb_f32_convert_synchronise(engine);
-        gb_engine_blocks_run(engine, prepare_block, engine);
+        gb_blocks_run(engine, prepare_block, engine);
     } /* else the velocity update did it */
     if (!gb_list_check_run(engine)) {
         return false;
