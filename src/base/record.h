@@ -43,7 +43,6 @@ void gb_record_finish(struct gb_record *record);
 /* Empties the record for saving; its memory is used again. */
 void gb_record_clear(struct gb_record *record);
 
-size_t gb_record_type_size(enum gb_record_type type);
 /* Bytes of an item in memory. */
 size_t gb_record_bytes(const struct gb_record_item *item);
 
@@ -58,14 +57,14 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
 
 /* The same for doubles that are kept as floats. */
 struct gb_record_item *gb_record_add_f32(struct gb_record *record, const char *name,
-                                            int64_t rows, int columns, const char *unit,
-                                            struct gb_error *err);
+                                         int64_t rows, int columns, const char *unit,
+                                         struct gb_error *err);
 
 /* Number k of an item of doubles, row by row. */
 static inline double gb_record_number(const struct gb_record_item *item, int64_t k)
 {
     return item->f32 ? (double)((const float *)item->data)[k]
-                        : ((const double *)item->data)[k];
+                     : ((const double *)item->data)[k];
 }
 
 /* `count` numbers of an item of doubles from `first` on. */

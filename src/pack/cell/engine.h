@@ -7,7 +7,6 @@
 #include "pack/cell/pair_results.h"
 #include "pack/cell/particles.h"
 #include "pack/f32/f32_state.h"
-#include "pack/f32/fixed_position.h"
 #include "pack/kernel/batch/batch.h"
 #include "pack/kernel/tally.h"
 #include "pack/list/list_check.h"

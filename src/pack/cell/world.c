@@ -7,7 +7,7 @@
 #include "base/team/team.h"
 #include "base/vec.h"
 #include "pack/cell/world_private.h"
-#include "pack/f32/f32_convert.h"
+#include "pack/f32/f32_state.h"
 #include "pack/list/blocks.h"
 #include "scene/thread_count.h"
 
@@ -99,7 +99,7 @@ void gb_world_set_step(struct gb_world *world, double time_step)
 void gb_world_deform(struct gb_world *world, const struct gb_deformation *deformation)
 {
     struct gb_engine *engine = &world->engine;
-    gb_f32_convert_synchronise(engine);
+    gb_f32_state_synchronise(engine);
     gb_particles_deform(&engine->particles, deformation);
     gb_neighbour_list_deform(&engine->list, deformation);
     gb_engine_state_replace(&engine->state);
@@ -113,13 +113,13 @@ void gb_world_strain(struct gb_world *world, const double factor[3])
 
 void gb_world_synchronise(struct gb_world *world)
 {
-    gb_f32_convert_synchronise(&world->engine);
+    gb_f32_state_synchronise(&world->engine);
 }
 
 struct gb_bodies gb_world_movable(struct gb_world *world)
 {
     const struct gb_particles *particles = &world->engine.particles;
-    gb_f32_convert_synchronise(&world->engine);
+    gb_f32_state_synchronise(&world->engine);
     gb_engine_state_lend(&world->engine.state);
     return (struct gb_bodies){.count = particles->count,
                               .position = particles->position,
@@ -129,8 +129,8 @@ struct gb_bodies gb_world_movable(struct gb_world *world)
 struct gb_bodies gb_world_readable(struct gb_world *world)
 {
     const struct gb_particles *particles = &world->engine.particles;
-    gb_f32_convert_synchronise(&world->engine);
-    gb_f32_convert_forces_to_f64(&world->engine);
+    gb_f32_state_synchronise(&world->engine);
+    gb_f32_state_forces_to_f64(&world->engine);
     return (struct gb_bodies){.count = particles->count,
                               .position = particles->position,
                               .rotation = particles->rotation,

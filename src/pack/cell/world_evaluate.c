@@ -4,7 +4,7 @@
 
 #include "pack/list/engine_lists.h"
 #include "pack/cell/world_private.h"
-#include "pack/f32/f32_convert.h"
+#include "pack/f32/f32_state.h"
 #include "pack/kernel/sweep.h"
 #include "pack/list/blocks.h"
 #include "pack/list/list_patch.h"
@@ -18,7 +18,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
     if (!history && !gb_engine_lists_carry_note(&world->carry, engine, err)) {
         return false;
     }
-    gb_f32_convert_synchronise(engine);
+    gb_f32_state_synchronise(engine);
     (void)gb_cell_fold(&engine->particles.cell); /* new lists have new images */
     gb_particles_wrap(&engine->particles, engine->team);
     if (!gb_engine_lists_build(engine, &engine->particles.cell, err)) {
@@ -40,7 +40,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
 static int64_t first_not_finite(struct gb_engine *engine)
 {
     const struct gb_particles *particles = &engine->particles;
-    gb_f32_convert_forces_to_f64(engine);
+    gb_f32_state_forces_to_f64(engine);
     for (int64_t i = 0; i < particles->count; i++) {
         for (int k = 0; k < 3; k++) {
             if (!isfinite(particles->force[3 * i + k]) ||
@@ -77,7 +77,7 @@ static enum gb_sweep_outcome try_sweep(struct gb_engine *engine,
     if (engine->state.lists != GB_ENGINE_NO_LISTS) {
         return gb_sweep_run(engine, along);
     }
-    gb_f32_convert_synchronise(engine);
+    gb_f32_state_synchronise(engine);
     const double displacement = gb_neighbour_list_displacement(
         &engine->list, engine->particles.position, 0, engine->particles.count);
     return isfinite(displacement) ? GB_SWEEP_LIST_INVALID : GB_SWEEP_NOT_FINITE;
@@ -136,8 +136,8 @@ static bool evaluate(struct gb_world *world, struct gb_sweep_along along,
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
 {
     const bool done = evaluate(world, (struct gb_sweep_along){NULL, NULL}, err);
-    gb_f32_convert_synchronise(&world->engine);
-    gb_f32_convert_forces_to_f64(&world->engine);
+    gb_f32_state_synchronise(&world->engine);
+    gb_f32_state_forces_to_f64(&world->engine);
     return done;
 }
 

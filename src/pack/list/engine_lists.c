@@ -71,7 +71,7 @@ static bool reserve(struct gb_engine *engine, struct gb_error *err)
         return false;
     }
     return real == GB_REAL_F64 ||
-           gb_wrench_rows_update(&engine->f32.rows, &engine->list, err);
+           gb_f32_state_assign_rows(&engine->f32.rows, &engine->list, err);
 }
 
 bool gb_engine_lists_build(struct gb_engine *engine, const struct gb_cell *cell,

@@ -388,7 +388,7 @@ static bool apply(struct gb_engine *engine, struct plan *plan, struct gb_error *
     const bool crosses = slots_cross(&plan->near, count) ||
                          slots_cross(&plan->far, count) ||
                          slots_cross(&plan->far_gone, count);
-    return !crosses || gb_wrench_rows_update(&engine->f32.rows, list, err);
+    return !crosses || gb_f32_state_assign_rows(&engine->f32.rows, list, err);
 }
 
 enum gb_list_patch_outcome gb_list_patch_insert(struct gb_engine *engine,

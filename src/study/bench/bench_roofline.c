@@ -21,7 +21,7 @@ struct count {
 static const struct count equal_count = {{65.0, 248.0, 340.0}, 18.0};
 static const struct count sized_count = {{101.0, 312.0, 420.0}, 36.0};
 
-/* Per particle, integrate_f32_tile.h and the sums of sweep_f32.c: six numbers of a wrench
+/* Per particle, integrate_f32.c and the sums of sweep_f32.c: six numbers of a wrench
  * squared and multiplied with a velocity; velocity, displacement, square, position and
  * bound of six numbers.  Per near pair, the sums of both wrenches. */
 static const double particle_flops = 6.0 * 4.0 + 6.0 * 9.0, pair_flops = 2.0 * 6.0;

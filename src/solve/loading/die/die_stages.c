@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/units.h"
-#include "pack/die/bed_order.h"
+#include "pack/die/bed_list.h"
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 #include "solve/loading/die/die_cycle.h"
@@ -37,7 +37,7 @@ void gb_die_stages_destroy(struct gb_die_stages *stages)
     if (!stages) {
         return;
     }
-    gb_bed_copy_destroy(stages->kept);
+    gb_bed_record_destroy(stages->kept);
     gb_die_surface_finish(&stages->side);
     gb_die_surface_finish(&stages->top);
     gb_alloc_free(stages);
@@ -47,7 +47,7 @@ static bool save_good(struct gb_die_stages *stages, const struct gb_bed *bed,
                       struct gb_error *err)
 {
     stages->good = stages->now;
-    stages->have_good = gb_bed_copy_take(bed, &stages->kept, err);
+    stages->have_good = gb_bed_record_take(bed, &stages->kept, err);
     return stages->have_good;
 }
 
@@ -67,7 +67,7 @@ static enum gb_step_outcome halve_time_step(struct gb_die_stages *stages,
     char last[48], half[48];
     write_step(stages, step, last, sizeof last);
     write_step(stages, 0.5 * step, half, sizeof half);
-    if (!gb_bed_copy_restore(bed, stages->kept, err)) {
+    if (!gb_bed_record_restore(bed, stages->kept, err)) {
         return GB_STEP_STOPPED;
     }
     stages->now = stages->good;
@@ -128,7 +128,7 @@ static double pressed_density(struct gb_die_stages *stages, const struct gb_bed 
 static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_bed *bed,
                                        double density, struct gb_error *err)
 {
-    if (!gb_bed_copy_restore(bed, stages->kept, err)) {
+    if (!gb_bed_record_restore(bed, stages->kept, err)) {
         return GB_STEP_STOPPED;
     }
     stages->now = stages->good;
@@ -221,7 +221,7 @@ static bool follow_flow(const struct gb_die_stages *stages, struct gb_bed *bed,
                         struct gb_error *err)
 {
     return stages->now.stage != GB_DIE_STAGES_POUR ||
-           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_order_renumber(bed, err);
+           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_list_renumber(bed, err);
 }
 
 static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_bed *bed,

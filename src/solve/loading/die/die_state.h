@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "pack/die/bed.h"
-#include "pack/die/bed_copy.h"
+#include "pack/die/bed_record.h"
 #include "scene/model.h"
 #include "solve/leapfrog.h"
 #include "solve/loading/die/die_stages.h"
