@@ -1,7 +1,7 @@
 #include "measure/fabric.h"
 
 #include "measure/tensor.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 
 /* Sum over weight; NaN without a weight. */
 static void mean_tensor(const struct gb_fabric_sums *sums, int kind, double tensor[3][3])
@@ -18,7 +18,7 @@ void gb_fabric_measure(const struct gb_world *world, double pressure[3][3],
 {
     const int dimension = gb_world_model(world)->dimension;
     struct gb_fabric_sums sums = {.weight = {0}};
-    gb_world_measure_tensors(world, pressure, &sums);
+    gb_world_tensors(world, pressure, &sums);
     for (int kind = 0; kind < GB_FABRIC_KINDS; kind++) {
         double tensor[3][3];
         mean_tensor(&sums, kind, tensor);

@@ -32,8 +32,7 @@ struct gb_engine {
     /* Of every block of particles (pack/list/blocks.h). */
     struct gb_list_check_block *check; /* owner: list_check.c */
     struct gb_tally_block *tally;      /* owner: sweep.c */
-    int64_t
-        *block_cost; /* of all blocks before one, blocks + 1; owner: blocks.c */
+    int64_t *block_cost; /* of all blocks before one, blocks + 1; owner: blocks.c */
     struct gb_tally_block total; /* of all blocks; owner: sweep.c */
     double force_rms, torque_rms;
 };

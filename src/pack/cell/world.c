@@ -1,3 +1,10 @@
+/* A periodic packing: life, evaluation, motion, measures and copies of a world.
+ *
+ * An evaluation computes the forces at the present positions.  It first asks the list check
+ * whether the neighbour lists still hold every pair.  If not, missing pairs are inserted
+ * (pack/list/list_patch.h), or the lists are rebuilt and the contacts keep their histories.
+ * docs/engine.md describes how the parts of the engine work together. */
+
 #include "pack/cell/world.h"
 
 #include <math.h>
@@ -6,10 +13,20 @@
 #include "base/alloc.h"
 #include "base/team/team.h"
 #include "base/vec.h"
+#include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"
+#include "pack/cell/world_record.h"
 #include "pack/f32/f32_state.h"
+#include "pack/kernel/fabric_sums.h"
+#include "pack/kernel/sweep.h"
+#include "pack/kernel/virial.h"
 #include "pack/list/blocks.h"
+#include "pack/list/engine_lists.h"
+#include "pack/list/list_patch.h"
 #include "scene/thread_count.h"
+#include "scene/tolerances.h"
+
+/* ---- Life ---- */
 
 _Static_assert((int)GB_PARTICLES_PER_THREAD * 17 / 16 >= (int)GB_BLOCKS_SIZE,
                "hardly a thread is left without a block");
@@ -86,6 +103,147 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world);
 }
 
+/* ---- Evaluation ---- */
+
+bool gb_world_evaluate_rebuild(struct gb_world *world,
+                               const struct gb_contact_history *history,
+                               struct gb_error *err)
+{
+    struct gb_engine *engine = &world->engine;
+    if (!history && !gb_engine_lists_carry_note(&world->carry, engine, err)) {
+        return false;
+    }
+    gb_f32_state_synchronise(engine);
+    (void)gb_cell_fold(&engine->particles.cell); /* new lists have new images */
+    gb_particles_wrap(&engine->particles, engine->team);
+    if (!gb_engine_lists_build(engine, &engine->particles.cell, err)) {
+        return false;
+    }
+    if (history) {
+        gb_contact_history_read(history, engine);
+    } else {
+        gb_engine_lists_carry_move(&world->carry, engine);
+    }
+    for (int64_t b = 0; b < gb_blocks_count(engine->particles.count); b++) {
+        engine->check[b].displacement = 0.0; /* also of a velocity update before this */
+    }
+    gb_pair_results_reset_far(&engine->pair, engine->list.far.pair_count);
+    world->rebuilds++;
+    return true;
+}
+
+static int64_t first_not_finite(struct gb_engine *engine)
+{
+    const struct gb_particles *particles = &engine->particles;
+    gb_f32_state_forces_to_f64(engine);
+    for (int64_t i = 0; i < particles->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            if (!isfinite(particles->force[3 * i + k]) ||
+                !isfinite(particles->torque[3 * i + k])) {
+                return i;
+            }
+        }
+    }
+    return -1;
+}
+
+static bool check_result(struct gb_engine *engine, struct gb_error *err)
+{
+    const double overlap = engine->total.tally.deepest;
+    if (!isfinite(engine->force_rms) || !isfinite(engine->torque_rms)) {
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "force on particle %lld is not a finite number",
+                            (long long)first_not_finite(engine));
+    }
+    if (overlap > GB_OVERLAP_MAX) {
+        return gb_error_set(
+            err, GB_ERR_GUARD,
+            "two particles overlap by %.3g of the smaller one's diameter: the strain step "
+            "is too large or the pressure beyond the contact laws",
+            overlap);
+    }
+    return true;
+}
+
+/* A sweep with the lists as they are, if there are any. */
+static enum gb_sweep_outcome try_sweep(struct gb_engine *engine,
+                                       struct gb_sweep_along along)
+{
+    if (engine->state.lists != GB_ENGINE_NO_LISTS) {
+        return gb_sweep_run(engine, along);
+    }
+    gb_f32_state_synchronise(engine);
+    const double displacement = gb_neighbour_list_displacement(
+        &engine->list, engine->particles.position, 0, engine->particles.count);
+    return isfinite(displacement) ? GB_SWEEP_LIST_INVALID : GB_SWEEP_NOT_FINITE;
+}
+
+/* Inserts the missing pairs, and sweeps where that was possible. */
+static enum gb_list_patch_outcome patch_and_sweep(struct gb_engine *engine,
+                                                  struct gb_sweep_along along,
+                                                  struct gb_error *err)
+{
+    if (engine->state.lists == GB_ENGINE_NO_LISTS) {
+        return GB_LIST_PATCH_REBUILD;
+    }
+    const enum gb_list_patch_outcome outcome = gb_list_patch_insert(engine, err);
+    if (outcome == GB_LIST_PATCH_FAILED) {
+        gb_engine_state_drop_lists(&engine->state);
+    }
+    if (outcome == GB_LIST_PATCH_DONE) {
+        gb_engine_state_patch_lists(&engine->state);
+        (void)gb_sweep_run(engine, along); /* patched lists are valid */
+        gb_engine_state_use_lists(&engine->state);
+    }
+    return outcome;
+}
+
+static bool rebuild_and_sweep(struct gb_world *world, struct gb_sweep_along along,
+                              struct gb_error *err)
+{
+    if (!gb_world_evaluate_rebuild(world, NULL, err)) {
+        return false;
+    }
+    (void)gb_sweep_run(&world->engine, along); /* new lists are valid */
+    return true;
+}
+
+static bool evaluate(struct gb_world *world, struct gb_sweep_along along,
+                     struct gb_error *err)
+{
+    struct gb_engine *engine = &world->engine;
+    const enum gb_sweep_outcome swept = try_sweep(engine, along);
+    if (swept == GB_SWEEP_NOT_FINITE) {
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "a coordinate of a particle is not a finite number");
+    }
+    if (swept == GB_SWEEP_LIST_INVALID) {
+        const enum gb_list_patch_outcome patched = patch_and_sweep(engine, along, err);
+        if (patched == GB_LIST_PATCH_FAILED ||
+            (patched == GB_LIST_PATCH_REBUILD && !rebuild_and_sweep(world, along, err))) {
+            return false;
+        }
+    }
+    world->evaluations++;
+    return check_result(engine, err);
+}
+
+bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
+{
+    const bool done = evaluate(world, (struct gb_sweep_along){NULL, NULL}, err);
+    gb_f32_state_synchronise(&world->engine);
+    gb_f32_state_forces_to_f64(&world->engine);
+    return done;
+}
+
+bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
+                             const double *spin, struct gb_error *err)
+{
+    return evaluate(world, (struct gb_sweep_along){velocity, spin}, err);
+}
+
+/* ---- Motion ---- */
+
 const struct gb_force_sums *gb_world_sums(const struct gb_world *world)
 {
     return &world->engine.total.sums;
@@ -143,6 +301,8 @@ struct gb_bodies gb_world_bodies(struct gb_world *world)
     (void)gb_world_movable(world);
     return gb_world_readable(world);
 }
+
+/* ---- What the world holds ---- */
 
 const struct gb_cell *gb_world_cell(const struct gb_world *world)
 {
@@ -301,4 +461,129 @@ uint64_t gb_world_hash(const struct gb_world *world)
         }
     }
     return hash;
+}
+
+/* ---- Measures ---- */
+
+/* A cell that is filled to the last pore has density 1, whatever the product of its strains
+ * is rounded to. */
+static double without_rounding(double density)
+{
+    return density > 1.0 && density < 1.0 + GB_DENSITY_END_TOLERANCE ? 1.0 : density;
+}
+
+double gb_world_density(const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    return without_rounding(shape * model->mean_power * (double)model->count /
+                            gb_cell_volume(gb_world_cell(world)));
+}
+
+void gb_world_pressure(const struct gb_world *world, double pressure[3][3])
+{
+    gb_world_tensors(world, pressure, NULL);
+}
+
+void gb_world_tensors(const struct gb_world *world, double pressure[3][3],
+                      struct gb_fabric_sums *fabric)
+{
+    const double volume = gb_cell_volume(gb_world_cell(world));
+    gb_virial_sum_fabric(world, pressure, fabric);
+    for (int a = 0; a < 3; a++) {
+        gb_vec_scale(pressure[a], 1.0 / volume);
+    }
+}
+
+void gb_world_normal_pressures(const struct gb_world *world, double pressure[3])
+{
+    double tensor[3][3];
+    gb_world_pressure(world, tensor);
+    for (int k = 0; k < 3; k++) {
+        pressure[k] = tensor[k][k];
+    }
+}
+
+/* ---- Copies ---- */
+
+bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **copy,
+                          struct gb_error *err)
+{
+    if (*copy) {
+        return true;
+    }
+    struct gb_world_copy *made = gb_alloc_array(1, sizeof *made, err);
+    if (!made) {
+        return false;
+    }
+    made->position = gb_alloc_array(3 * (size_t)world->engine.particles.count,
+                                    sizeof *made->position, err);
+    if (!made->position) {
+        gb_alloc_free(made);
+        return false;
+    }
+    *copy = made;
+    return true;
+}
+
+bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **copy,
+                        struct gb_error *err)
+{
+    const struct gb_engine *engine = &world->engine;
+    const struct gb_particles *particles = &engine->particles;
+    if (!gb_world_copy_ensure(world, copy, err)) {
+        return false;
+    }
+    (*copy)->cell = particles->cell;
+    (*copy)->count = particles->count;
+    memcpy((*copy)->position, particles->position,
+           3 * (size_t)particles->count * sizeof *particles->position);
+    return gb_contact_history_write(&(*copy)->history, engine, err);
+}
+
+bool gb_world_copy_restore(struct gb_world *world, const struct gb_world_copy *copy,
+                           struct gb_error *err)
+{
+    gb_particles_replace(&world->engine.particles, &copy->cell, copy->position);
+    gb_engine_state_replace(&world->engine.state);
+    return gb_world_evaluate_rebuild(world, &copy->history, err);
+}
+
+void gb_world_copy_destroy(struct gb_world_copy *copy)
+{
+    if (copy) {
+        gb_alloc_free(copy->position);
+        gb_contact_history_finish(&copy->history);
+        gb_alloc_free(copy);
+    }
+}
+
+bool gb_world_copy_record(const struct gb_world *world, struct gb_world_copy **copy,
+                          struct gb_record *record, struct gb_error *err)
+{
+    const struct gb_particles *particles = &world->engine.particles;
+    if (!gb_world_copy_ensure(world, copy, err)) {
+        return false;
+    }
+    struct gb_world_copy *at = *copy;
+    if (record->loading) {
+        at->cell = particles->cell;
+        at->count = particles->count;
+    }
+    return gb_record_array(record, "branch/edge", GB_RECORD_DOUBLE, 1, 3, "d",
+                           at->cell.edge, err) &&
+           (!world->engine.model->sheared ||
+            (gb_record_array(record, "branch/tilt", GB_RECORD_DOUBLE, 1, 3, "d",
+                             at->cell.tilt, err) &&
+             gb_record_array(record, "branch/shear", GB_RECORD_DOUBLE, 1, 3, "1",
+                             at->cell.shear, err))) &&
+           gb_record_checks_edges(&at->cell, "branch/edge", err) &&
+           gb_record_array(record, "branch/position", GB_RECORD_DOUBLE, at->count, 3, "d",
+                           at->position, err) &&
+           gb_record_checks_inside(&at->cell, at->position, at->count, 1.0,
+                                   "branch/position", err) &&
+           gb_contact_history_record(&at->history, &world->engine, record,
+                                     &gb_contact_history_branch, err) &&
+           gb_record_checks_history(&at->history, at->count,
+                                    gb_contact_history_branch.pair, err);
 }

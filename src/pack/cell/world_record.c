@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "pack/list/engine_lists.h"
 #include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_state.h"
 #include "pack/kernel/pair_forces.h"
+#include "pack/list/engine_lists.h"
 #include "pack/list/list_patch.h"
 
 #define AT(member)     offsetof(struct gb_world, member)

@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/portable.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 #include "solve/loading/compressed_axes.h"
 #include "solve/loading/dynamic_guard.h"
@@ -24,7 +24,7 @@ bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
     motion->model = model;
     motion->limit = INFINITY;
     motion->sliding_most = GB_SLIDING_FRACTION_MAX;
-    motion->density = gb_world_measure_density(world);
+    motion->density = gb_world_density(world);
     motion->stage = motion->recorded = GB_DYNAMIC_RELAX;
     motion->stage_end = model->dynamics.relax;
     motion->good_velocity = gb_alloc_array(n, sizeof *motion->good_velocity, err);

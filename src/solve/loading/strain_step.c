@@ -1,6 +1,6 @@
 #include "solve/loading/strain_step.h"
 
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 
 bool gb_strain_step_init(struct gb_strain_step *step, const struct gb_model *model,
@@ -125,7 +125,7 @@ enum gb_strain_step_outcome gb_strain_step_check_jumps(struct gb_strain_step *st
     if (!step->have_good) {
         return GB_STRAIN_STEP_RELAXED;
     }
-    const double density = gb_world_measure_density(step->world);
+    const double density = gb_world_density(step->world);
     if (density > GB_DENSITY_MAX) {
         gb_error_set(err, GB_ERR_GUARD,
                      "relative density %.6g: the contact laws hold up to %g", density,

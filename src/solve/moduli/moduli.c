@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/portable.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 #include "solve/moduli/probe.h"
 
@@ -72,7 +72,7 @@ bool gb_moduli_tangent(double c[6][6], const struct gb_world *world, struct gb_e
     double *motion = gb_alloc_array(numbers, sizeof *motion, err);
     const bool done = force && motion && gb_tangent_create(&tangent, world, err);
     memset(c, 0, 36 * sizeof **c);
-    gb_world_measure_pressure(world, pressure);
+    gb_world_pressure(world, pressure);
     for (int k = 0; k < COMPONENTS && done; k++) {
         if (exists(dimension, k)) {
             respond(tangent, (const double(*)[3])pressure,
@@ -237,7 +237,7 @@ static bool measure(struct gb_moduli *moduli, struct gb_probe *probe, double *sl
                 probe->force, slope[k], linear);
     }
     memcpy(moduli->pressure, probe->pressure, sizeof moduli->pressure);
-    moduli->density = gb_world_measure_density(probe->world);
+    moduli->density = gb_world_density(probe->world);
     moduli->residual = probe->residual;
     return choose_strain(moduli, probe, slope, err) &&
            (!options->range || measure_range(moduli, probe, err));

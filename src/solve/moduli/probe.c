@@ -8,7 +8,7 @@
 #include "base/deformation.h"
 #include "base/vec.h"
 #include "pack/cell/nonaffine.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "pack/kernel/cap_rounding.h"
 #include "scene/tolerances.h"
 
@@ -205,7 +205,7 @@ bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double f
         !settle(probe, strain, target, err)) {
         return false;
     }
-    gb_world_measure_pressure(probe->world, pressure);
+    gb_world_pressure(probe->world, pressure);
     return true;
 }
 
@@ -214,7 +214,7 @@ static bool renew_tangent(struct gb_probe *probe, struct gb_error *err)
     gb_tangent_destroy(probe->tangent);
     probe->tangent = NULL;
     probe->residual = gb_world_residual(probe->world);
-    gb_world_measure_pressure(probe->world, probe->pressure);
+    gb_world_pressure(probe->world, probe->pressure);
     return gb_tangent_create(&probe->tangent, probe->world, err);
 }
 

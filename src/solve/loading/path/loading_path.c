@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 #include "solve/loading/loading.h"
 #include "solve/loading/loading_cell.h"
@@ -202,7 +202,7 @@ static bool begin_leg(struct path_loading *run, struct gb_event_queue *events,
     }
     gb_strain_tangent_stress(world, stress);
     gb_leg_run_begin(&run->legs, run->base.model, &affine, stress,
-                     gb_world_measure_density(world));
+                     gb_world_density(world));
     if (events) {
         add_leg_event(run, events);
     }
@@ -235,7 +235,7 @@ decide_next(struct path_loading *run, struct gb_event_queue *events, struct gb_e
     const struct gb_model *model = run->base.model;
     char text[GB_EVENT_TEXT];
     for (;;) {
-        const double density = gb_world_measure_density(run->base.world);
+        const double density = gb_world_density(run->base.world);
         if (run->legs.leg < model->path.count && run->legs.begun <= run->legs.leg &&
             !begin_leg(run, events, err)) {
             return GB_STEP_STOPPED;
@@ -267,7 +267,7 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
     if (run->legs.begun > 0) {
         gb_strain_tangent_stress(loading->world, stress);
         gb_leg_run_accept(&run->legs, loading->model, stress,
-                          gb_world_measure_density(loading->world));
+                          gb_world_density(loading->world));
     }
     return decide_next(run, events, err);
 }

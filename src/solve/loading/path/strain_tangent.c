@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/portable.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 
 enum { N = GB_PATH_COMPONENTS };
@@ -25,7 +25,7 @@ struct gb_deformation gb_strain_tangent_deformation(const double strain[N])
 void gb_strain_tangent_stress(const struct gb_world *world, double stress[N])
 {
     double pressure[3][3];
-    gb_world_measure_pressure(world, pressure);
+    gb_world_pressure(world, pressure);
     for (int k = 0; k < 3; k++) {
         const int row = shear_row[k], column = shear_column[k];
         stress[k] = pressure[k][k];
