@@ -336,11 +336,9 @@ const char *gb_record_difference(const struct gb_record *a, const struct gb_reco
     return NULL;
 }
 
-static const uint64_t prime = 1099511628211u;
-
 static uint64_t hash_word(uint64_t hash, uint64_t word)
 {
-    hash = (hash ^ word) * prime;
+    hash = (hash ^ word) * GB_RECORD_FNV_PRIME;
     return hash ^ hash >> 32;
 }
 
@@ -355,10 +353,7 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
         memcpy(&word, byte + i, sizeof word);
         hash = hash_word(hash, word);
     }
-    for (; i < size; i++) {
-        hash = (hash ^ (unsigned char)byte[i]) * prime;
-    }
-    return hash;
+    return gb_record_fnv(hash, byte + i, size - i);
 }
 
 /* An f32 item hashes as the doubles of its file. */
@@ -382,7 +377,7 @@ uint64_t gb_record_hash(const struct gb_record *record)
     for (int k = 0; k < record->count; k++) {
         const struct gb_record_item *item = &record->item[k];
         const int64_t shape[3] = {(int64_t)item->type, item->rows, item->columns};
-        uint64_t hash = 14695981039346656037u;
+        uint64_t hash = GB_RECORD_FNV;
         hash = hash_bytes(hash, item->name, strlen(item->name));
         hash = hash_bytes(hash, shape, sizeof shape);
         hash = hash_content(hash, item);

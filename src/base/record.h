@@ -116,4 +116,17 @@ const char *gb_record_difference(const struct gb_record *a, const struct gb_reco
  * count as doubles. */
 uint64_t gb_record_hash(const struct gb_record *record);
 
+/* The hash FNV-1a, byte by byte, from GB_RECORD_FNV on (G. Fowler, L. C. Noll, K.-P. Vo). */
+#define GB_RECORD_FNV       UINT64_C(14695981039346656037)
+#define GB_RECORD_FNV_PRIME UINT64_C(1099511628211)
+
+static inline uint64_t gb_record_fnv(uint64_t hash, const void *data, size_t bytes)
+{
+    const unsigned char *byte = data;
+    for (size_t k = 0; k < bytes; k++) {
+        hash = (hash ^ byte[k]) * GB_RECORD_FNV_PRIME;
+    }
+    return hash;
+}
+
 #endif

@@ -8,7 +8,6 @@
 
 #include "measure/fit/fit.h"
 #include "measure/fit/power.h"
-#include "measure/fit/power_choice.h"
 
 enum { POINTS = 600, SAMPLES = 200 };
 
@@ -298,103 +297,6 @@ static void test_power_coverage(void)
     gsl_rng_free(random);
 }
 
-/* Pressures at three densities by P2 (9) with this exponent, k_v v1^exponent as in P2, and
- * scatter of one standard error. */
-static void make_law(struct gb_power_point points[15], double exponent, double error,
-                     gsl_rng *random)
-{
-    static const double densities[] = {0.75, 0.85, 0.95};
-    const double k_v = 21.5 * pow(rates[0], 0.25 - exponent);
-    for (int i = 0; i < 15; i++) {
-        const double v = rates[i % 5], rho = densities[i / 5];
-        points[i] = (struct gb_power_point){
-            v, rho, 3e3 * rho + k_v * pow(v, exponent) * pow(rho - 0.5, 3.0), error};
-        points[i].p += gsl_ran_gaussian(random, error);
-    }
-}
-
-/* The exponent of the law is preferred in almost all samples where the errors are small, in
- * both directions; where they are those of P2, neither is. */
-static void test_power_choice(void)
-{
-    static const double exponents[] = {0.125, 0.25};
-    const struct gb_power_law law = {0.0, 3.0, 0.5};
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_taus2);
-    for (int truth = 0; truth < 2; truth++) {
-        int sharp = 0, undecided = 0;
-        for (int sample = 0; sample < 100; sample++) {
-            struct gb_power_choice choices[] = {{.exponent = 0.125}, {.exponent = 0.25}};
-            struct gb_power_point points[15];
-            make_law(points, exponents[truth], 1.0, random);
-            g_assert_true(gb_power_choice_fit(choices, 2, &law, points, 15, NULL));
-            g_assert_cmpfloat_with_epsilon(choices[0].weight + choices[1].weight, 1.0,
-                                           1e-12);
-            g_assert_cmpfloat_with_epsilon(
-                choices[1 - truth].delta,
-                choices[1 - truth].rate.chi2 - choices[truth].rate.chi2, 1e-9);
-            sharp += choices[truth].weight > 0.95;
-            make_law(points, exponents[truth], 60.0, random);
-            g_assert_true(gb_power_choice_fit(choices, 2, &law, points, 15, NULL));
-            undecided += choices[truth].weight < 0.95 && choices[truth].weight > 0.05;
-        }
-        g_test_message("exponent %g: decided %d, undecided %d of 100", exponents[truth],
-                       sharp, undecided);
-        g_assert_cmpint(sharp, >=, 95);
-        g_assert_cmpint(undecided, >=, 95);
-    }
-    gsl_rng_free(random);
-}
-
-/* Four rates with errors that leave the exponent open; a quasi-static point, from which (9)
- * counts, decides it. */
-static void test_power_choice_static(void)
-{
-    static const double with_v[] = {6.8e8, 6.8e7, 6.8e6, 6.8e5, 0.0};
-    const struct gb_power_law law = {0.0, 3.0, 0.5};
-    struct gb_power_choice open[] = {{.exponent = 0.25}, {.exponent = 0.125}};
-    struct gb_power_choice closed[] = {{.exponent = 0.25}, {.exponent = 0.125}};
-    struct gb_power_point points[5];
-    struct gb_error err = {0};
-    for (int i = 0; i < 5; i++) {
-        const double power = i < 4 ? pow(with_v[i], 0.25) : 0.0;
-        points[i] = (struct gb_power_point){with_v[i], 0.95,
-                                            2700.0 + 21.5 * power * pow(0.45, 3.0), 12.0};
-    }
-    g_assert_true(gb_power_choice_fit(open, 2, &law, points, 4, &err));
-    g_assert_true(gb_power_choice_fit(closed, 2, &law, points, 5, &err));
-    g_test_message("weight of 1/4: %.3f, with the quasi-static point %.3f",
-                   open[0].weight, closed[0].weight);
-    g_assert_cmpfloat_with_epsilon(closed[0].rate.chi2, 0.0, 1e-9);
-    g_assert_cmpfloat_with_epsilon(closed[0].rate.k_v.value, 21.5, 1e-9);
-    g_assert_cmpfloat(open[0].weight, <, 0.95);
-    g_assert_cmpfloat(closed[0].weight, >, 0.99);
-    points[4].v = -1.0;
-    g_assert_false(gb_power_choice_fit(closed, 2, &law, points, 5, &err));
-    g_assert_nonnull(strstr(err.text, "a rate of 0 or more"));
-}
-
-/* Without errors the scatter decides; an exact law leaves nothing to compare. */
-static void test_power_choice_scatter(void)
-{
-    const struct gb_power_law law = {0.0, 3.0, 0.5};
-    struct gb_power_choice choices[] = {{.exponent = 0.25}, {.exponent = 0.125}};
-    struct gb_power_point points[15];
-    struct gb_error err = {0};
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_taus2);
-    make_law(points, 0.25, 1.0, random);
-    for (int i = 0; i < 15; i++) {
-        points[i].error = 0.0;
-    }
-    g_assert_true(gb_power_choice_fit(choices, 2, &law, points, 15, &err));
-    const double ratio = choices[1].rate.chi2 / choices[0].rate.chi2;
-    g_assert_cmpfloat(choices[0].delta, ==, 0.0);
-    g_assert_cmpfloat_with_epsilon(choices[1].delta, 15.0 * log(ratio), 1e-9);
-    const struct gb_power_point exact[] = {{16.0, 0.8, 2.0, 0.0}, {81.0, 0.8, 3.0, 0.0}};
-    g_assert_false(gb_power_choice_fit(choices, 1, &law, exact, 2, &err));
-    g_assert_nonnull(strstr(err.text, "nothing to compare"));
-    gsl_rng_free(random);
-}
-
 static void test_power_input(void)
 {
     const double p[4] = {1.0, 2.0, 3.0, 4.0};
@@ -460,9 +362,6 @@ int main(int argc, char **argv)
     g_test_add_func("/fit/odd-shapes", test_odd_shapes);
     g_test_add_func("/power/exact", test_power_exact);
     g_test_add_func("/power/coverage", test_power_coverage);
-    g_test_add_func("/power/choice", test_power_choice);
-    g_test_add_func("/power/choice-static", test_power_choice_static);
-    g_test_add_func("/power/choice-scatter", test_power_choice_scatter);
     g_test_add_func("/power/input", test_power_input);
     g_test_add_func("/fit/efold", test_efold);
     return g_test_run();

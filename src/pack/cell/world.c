@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/record.h"
 #include "base/team/team.h"
 #include "base/vec.h"
 #include "pack/cell/record_checks.h"
@@ -430,15 +431,6 @@ int64_t gb_world_rebuilds(const struct gb_world *world)
     return world->rebuilds;
 }
 
-static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
-{
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < size; i++) {
-        hash = (hash ^ byte[i]) * 1099511628211u; /* FNV-1a */
-    }
-    return hash;
-}
-
 uint64_t gb_world_hash(const struct gb_world *world)
 {
     const struct gb_engine *engine = &world->engine;
@@ -447,17 +439,17 @@ uint64_t gb_world_hash(const struct gb_world *world)
     const int64_t slots = engine->state.lists != GB_ENGINE_NO_LISTS
                               ? gb_neighbour_list_slots(&engine->list, &engine->list.near)
                               : 0;
-    uint64_t hash = 14695981039346656037u;
-    hash = hash_bytes(hash, particles->cell.edge, sizeof particles->cell.edge);
+    uint64_t hash = GB_RECORD_FNV;
+    hash = gb_record_fnv(hash, particles->cell.edge, sizeof particles->cell.edge);
     if (gb_cell_tilted(&particles->cell)) {
-        hash = hash_bytes(hash, particles->cell.tilt, sizeof particles->cell.tilt);
+        hash = gb_record_fnv(hash, particles->cell.tilt, sizeof particles->cell.tilt);
     }
-    hash = hash_bytes(hash, particles->position,
-                      3 * (size_t)particles->count * sizeof *particles->position);
+    hash = gb_record_fnv(hash, particles->position,
+                         3 * (size_t)particles->count * sizeof *particles->position);
     for (int64_t k = 0; k < slots; k++) {
         for (int p = 0; p < contacts->planes && gb_contacts_touch(contacts, k); p++) {
             const double value = gb_contacts_value(contacts, p, k);
-            hash = hash_bytes(hash, &value, sizeof value);
+            hash = gb_record_fnv(hash, &value, sizeof value);
         }
     }
     return hash;

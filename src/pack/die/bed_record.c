@@ -96,15 +96,6 @@ bool gb_bed_record_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
 
 /* ---- Hash ---- */
 
-static uint64_t mix(uint64_t hash, const void *data, size_t bytes)
-{
-    const unsigned char *byte = data;
-    for (size_t k = 0; k < bytes; k++) {
-        hash = (hash ^ byte[k]) * UINT64_C(1099511628211); /* FNV-1a */
-    }
-    return hash;
-}
-
 static uint64_t mix_list(uint64_t hash, const struct gb_bed_list *list)
 {
     const struct gb_bed_contacts *c = &list->contacts;
@@ -114,9 +105,9 @@ static uint64_t mix_list(uint64_t hash, const struct gb_bed_list *list)
         }
         const double history[] = {c->deepest[slot], c->shear[0][slot], c->shear[1][slot],
                                   c->shear[2][slot]};
-        hash = mix(hash, &list->first[slot], sizeof list->first[slot]);
-        hash = mix(hash, &list->other[slot], sizeof list->other[slot]);
-        hash = mix(hash, history, sizeof history);
+        hash = gb_record_fnv(hash, &list->first[slot], sizeof list->first[slot]);
+        hash = gb_record_fnv(hash, &list->other[slot], sizeof list->other[slot]);
+        hash = gb_record_fnv(hash, history, sizeof history);
     }
     return hash;
 }
@@ -126,9 +117,9 @@ static uint64_t mix_welds(uint64_t hash, const struct gb_bed_welds *welds)
     for (int64_t k = 0; welds && k < welds->count; k++) {
         const double state[] = {welds->length[k], welds->radius[k], welds->force[0][k],
                                 welds->force[1][k], welds->force[2][k]};
-        hash = mix(hash, &welds->first[k], sizeof welds->first[k]);
-        hash = mix(hash, &welds->other[k], sizeof welds->other[k]);
-        hash = mix(hash, state, sizeof state);
+        hash = gb_record_fnv(hash, &welds->first[k], sizeof welds->first[k]);
+        hash = gb_record_fnv(hash, &welds->other[k], sizeof welds->other[k]);
+        hash = gb_record_fnv(hash, state, sizeof state);
     }
     return hash;
 }
@@ -136,14 +127,14 @@ static uint64_t mix_welds(uint64_t hash, const struct gb_bed_welds *welds)
 uint64_t gb_bed_record_hash(const struct gb_bed *bed)
 {
     const size_t bytes = (size_t)bed->count * sizeof(gb_bed_row);
-    uint64_t hash = UINT64_C(14695981039346656037);
-    hash = mix(hash, bed->position, bytes);
-    hash = mix(hash, bed->velocity, bytes);
-    hash = mix(hash, bed->roll, bytes);
-    hash = mix(hash, &bed->die.punch_position, sizeof bed->die.punch_position);
-    hash = mix(hash, &bed->die.punch_velocity, sizeof bed->die.punch_velocity);
+    uint64_t hash = GB_RECORD_FNV;
+    hash = gb_record_fnv(hash, bed->position, bytes);
+    hash = gb_record_fnv(hash, bed->velocity, bytes);
+    hash = gb_record_fnv(hash, bed->roll, bytes);
+    hash = gb_record_fnv(hash, &bed->die.punch_position, sizeof bed->die.punch_position);
+    hash = gb_record_fnv(hash, &bed->die.punch_velocity, sizeof bed->die.punch_velocity);
     if (bed->die.bore != GB_DIE_BORE_ENDLESS) {
-        hash = mix(hash, &bed->die.top, sizeof bed->die.top);
+        hash = gb_record_fnv(hash, &bed->die.top, sizeof bed->die.top);
     }
     return mix_welds(mix_list(mix_list(hash, &bed->pairs), &bed->walls), bed->welds);
 }

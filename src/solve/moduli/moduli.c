@@ -48,41 +48,18 @@ static void respond(struct gb_tangent *tangent, const double pressure[3][3],
     const int64_t numbers = 6 * tangent->count;
     double strain[3][3], change[3][3];
     gb_moduli_strain(k, 1.0, strain);
-    const double whole = gb_tangent_affine(tangent, (const double(*)[3])strain, force);
+    const double whole = gb_probe_affine(tangent, (const double(*)[3])strain, force);
     const double norm = vector_norm(force, numbers), noise = GB_TANGENT_NOISE * whole;
     memset(motion, 0, (size_t)numbers * sizeof *motion);
     if (norm > noise) {
-        gb_tangent_solve(tangent, force, fmax(GB_TANGENT_SHARE, noise / norm),
-                         ITERATIONS_MAX, motion);
+        gb_probe_solve(tangent, force, fmax(GB_TANGENT_SHARE, noise / norm),
+                       ITERATIONS_MAX, motion);
     }
-    gb_tangent_virial(tangent, (const double(*)[3])strain, motion, change);
+    gb_probe_virial(tangent, (const double(*)[3])strain, motion, change);
     for (int m = 0; m < COMPONENTS; m++) {
         c[m][k] = -component((const double(*)[3])change, m) / volume +
                   (k < 3 ? component(pressure, m) : 0.0);
     }
-}
-
-bool gb_moduli_tangent(double c[6][6], const struct gb_world *world, struct gb_error *err)
-{
-    const size_t numbers = 6 * (size_t)gb_world_model(world)->count;
-    const int dimension = gb_world_model(world)->dimension;
-    struct gb_tangent *tangent = NULL;
-    double pressure[3][3];
-    double *force = gb_alloc_array(numbers, sizeof *force, err);
-    double *motion = gb_alloc_array(numbers, sizeof *motion, err);
-    const bool done = force && motion && gb_tangent_create(&tangent, world, err);
-    memset(c, 0, 36 * sizeof **c);
-    gb_world_pressure(world, pressure);
-    for (int k = 0; k < COMPONENTS && done; k++) {
-        if (exists(dimension, k)) {
-            respond(tangent, (const double(*)[3])pressure,
-                    gb_cell_volume(gb_world_cell(world)), k, force, motion, c);
-        }
-    }
-    gb_tangent_destroy(tangent);
-    gb_alloc_free(force);
-    gb_alloc_free(motion);
-    return done;
 }
 
 /* Column k of C by central differences at a strain; slope: motion per strain, the first

@@ -41,12 +41,6 @@ struct gb_moduli_options {
 bool gb_moduli_measure(struct gb_moduli *moduli, const struct gb_world *world,
                        const struct gb_moduli_options *options, struct gb_error *err);
 
-/* The tangent of a world in double precision near equilibrium by one solution of the
- * linear equations for each strain, without a copy: sliding springs count half.  For
- * loading by stress. */
-bool gb_moduli_tangent(double c[6][6], const struct gb_world *world,
-                       struct gb_error *err);
-
 /* Symmetric strain whose component k is `size`. */
 void gb_moduli_strain(int k, double size, double strain[3][3]);
 

@@ -7,7 +7,7 @@
 #include "base/vec.h"
 #include "law/critical_step.h"
 #include "scene/loading_kind.h"
-#include "solve/loading/dynamic_step.h"
+#include "solve/loading/dynamic.h"
 #include "solve/relax/relax_fire.h"
 #include "solve/verlet.h"
 #include "study/stability/stability_scene.h"
