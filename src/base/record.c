@@ -19,7 +19,7 @@ void gb_record_clear(struct gb_record *record)
     record->count = 0;
 }
 
-size_t gb_record_type_size(enum gb_record_type type)
+static size_t type_size(enum gb_record_type type)
 {
     switch (type) {
     case GB_RECORD_INT32:
@@ -34,7 +34,7 @@ size_t gb_record_type_size(enum gb_record_type type)
 size_t gb_record_bytes(const struct gb_record_item *item)
 {
     return (size_t)item->rows * (size_t)item->columns *
-           (item->f32 ? sizeof(float) : gb_record_type_size(item->type));
+           (item->f32 ? sizeof(float) : type_size(item->type));
 }
 
 const struct gb_record_item *gb_record_find(const struct gb_record *record,
@@ -95,8 +95,8 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
 }
 
 struct gb_record_item *gb_record_add_f32(struct gb_record *record, const char *name,
-                                            int64_t rows, int columns, const char *unit,
-                                            struct gb_error *err)
+                                         int64_t rows, int columns, const char *unit,
+                                         struct gb_error *err)
 {
     return add(record, name, (struct content){GB_RECORD_DOUBLE, true}, rows, columns,
                unit, err);
@@ -297,7 +297,7 @@ static bool rows_differ(const struct gb_record_item *a, const struct gb_record_i
     if (a->f32 || b->f32) {
         return numbers_differ(a, b, row);
     }
-    const size_t bytes = (size_t)a->columns * gb_record_type_size(a->type);
+    const size_t bytes = (size_t)a->columns * type_size(a->type);
     return memcmp((const char *)a->data + (size_t)row * bytes,
                   (const char *)b->data + (size_t)row * bytes, bytes) != 0;
 }
@@ -336,11 +336,9 @@ const char *gb_record_difference(const struct gb_record *a, const struct gb_reco
     return NULL;
 }
 
-static const uint64_t prime = 1099511628211u;
-
 static uint64_t hash_word(uint64_t hash, uint64_t word)
 {
-    hash = (hash ^ word) * prime;
+    hash = (hash ^ word) * GB_RECORD_FNV_PRIME;
     return hash ^ hash >> 32;
 }
 
@@ -355,10 +353,7 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
         memcpy(&word, byte + i, sizeof word);
         hash = hash_word(hash, word);
     }
-    for (; i < size; i++) {
-        hash = (hash ^ (unsigned char)byte[i]) * prime;
-    }
-    return hash;
+    return gb_record_fnv(hash, byte + i, size - i);
 }
 
 /* An f32 item hashes as the doubles of its file. */
@@ -382,7 +377,7 @@ uint64_t gb_record_hash(const struct gb_record *record)
     for (int k = 0; k < record->count; k++) {
         const struct gb_record_item *item = &record->item[k];
         const int64_t shape[3] = {(int64_t)item->type, item->rows, item->columns};
-        uint64_t hash = 14695981039346656037u;
+        uint64_t hash = GB_RECORD_FNV;
         hash = hash_bytes(hash, item->name, strlen(item->name));
         hash = hash_bytes(hash, shape, sizeof shape);
         hash = hash_content(hash, item);

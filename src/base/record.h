@@ -43,7 +43,6 @@ void gb_record_finish(struct gb_record *record);
 /* Empties the record for saving; its memory is used again. */
 void gb_record_clear(struct gb_record *record);
 
-size_t gb_record_type_size(enum gb_record_type type);
 /* Bytes of an item in memory. */
 size_t gb_record_bytes(const struct gb_record_item *item);
 
@@ -58,14 +57,14 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
 
 /* The same for doubles that are kept as floats. */
 struct gb_record_item *gb_record_add_f32(struct gb_record *record, const char *name,
-                                            int64_t rows, int columns, const char *unit,
-                                            struct gb_error *err);
+                                         int64_t rows, int columns, const char *unit,
+                                         struct gb_error *err);
 
 /* Number k of an item of doubles, row by row. */
 static inline double gb_record_number(const struct gb_record_item *item, int64_t k)
 {
     return item->f32 ? (double)((const float *)item->data)[k]
-                        : ((const double *)item->data)[k];
+                     : ((const double *)item->data)[k];
 }
 
 /* `count` numbers of an item of doubles from `first` on. */
@@ -116,5 +115,18 @@ const char *gb_record_difference(const struct gb_record *a, const struct gb_reco
 /* 64-bit hash over names, shapes and content, whatever the order of the items; f32 items
  * count as doubles. */
 uint64_t gb_record_hash(const struct gb_record *record);
+
+/* The hash FNV-1a, byte by byte, from GB_RECORD_FNV on (G. Fowler, L. C. Noll, K.-P. Vo). */
+#define GB_RECORD_FNV       UINT64_C(14695981039346656037)
+#define GB_RECORD_FNV_PRIME UINT64_C(1099511628211)
+
+static inline uint64_t gb_record_fnv(uint64_t hash, const void *data, size_t bytes)
+{
+    const unsigned char *byte = data;
+    for (size_t k = 0; k < bytes; k++) {
+        hash = (hash ^ byte[k]) * GB_RECORD_FNV_PRIME;
+    }
+    return hash;
+}
 
 #endif

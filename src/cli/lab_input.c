@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/table_build.h"
+#include "base/table.h"
 #include "base/text/visible.h"
 #include "io/lab/lab_reader.h"
 
@@ -148,7 +148,7 @@ static bool keep_series(struct gb_table *table, const char *series, struct gb_er
     const bool found = g_hash_table_contains(seen, series);
     g_hash_table_destroy(seen);
     if (found) {
-        gb_table_build_keep(table, series);
+        gb_table_keep(table, series);
     } else {
         gb_error_set(err, GB_ERR_INPUT,
                      "%.200s: --series %.80s: accepted one series of %s",

@@ -9,17 +9,14 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/record.h"
 #include "io/text_file.h"
-
-static const uint64_t fnv_offset = 14695981039346656037u, fnv_prime = 1099511628211u;
 
 /* Adds whole lines to the text in memory. */
 static void remember(struct gb_line_file *rows, const char *text, size_t size)
 {
     g_string_append_len(rows->text, text, (gssize)size);
-    for (size_t i = 0; i < size; i++) {
-        rows->sum = (rows->sum ^ (unsigned char)text[i]) * fnv_prime;
-    }
+    rows->sum = gb_record_fnv(rows->sum, text, size);
     rows->length = (off_t)rows->text->len;
 }
 
@@ -42,7 +39,7 @@ static void begin(struct gb_line_file *rows, const char *directory, const char *
     *rows = (struct gb_line_file){.path = g_build_filename(directory, name, NULL),
                                   .fd = -1,
                                   .text = g_string_new(NULL),
-                                  .sum = fnv_offset};
+                                  .sum = GB_RECORD_FNV};
 }
 
 bool gb_line_file_open(struct gb_line_file *rows, const char *directory, const char *name,

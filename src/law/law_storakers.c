@@ -45,8 +45,8 @@ double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radiu
            gb_portable_pow(h / radius, 0.5 * law->exponent);
 }
 
-double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
-                                          double radius, double h)
+static double plastic_stiffness(const struct gb_law_storakers *law, double radius,
+                                double h)
 {
     if (!(h > 0.0)) {
         return 0.0;
@@ -69,8 +69,7 @@ struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law
         return (struct gb_law_branch){elastic,
                                       gb_law_hertz_stiffness(&law->hertz, radius, h)};
     }
-    return (struct gb_law_branch){plastic,
-                                  gb_law_storakers_plastic_stiffness(law, radius, h)};
+    return (struct gb_law_branch){plastic, plastic_stiffness(law, radius, h)};
 }
 
 double gb_law_storakers_contact(const struct gb_law_storakers *law, double radius,

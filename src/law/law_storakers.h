@@ -42,9 +42,6 @@ void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic
  * (16), (22). */
 double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radius,
                                 double h);
-double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
-                                          double radius, double h);
-
 /* Overlap at which Hertz' and the plastic force are equal: elastic below, plastic above.
  * Source: P3 (2), (16). */
 double gb_law_storakers_transition(const struct gb_law_storakers *law, double radius);

@@ -5,18 +5,18 @@
 
 #include "base/team/team.h"
 #include "base/vec.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "pack/kernel/pair_forces.h"
 #include "scene/unequal_pair.h"
 
 double gb_observe_density(const struct gb_world *world)
 {
-    return gb_world_measure_density(world);
+    return gb_world_density(world);
 }
 
 void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
 {
-    gb_world_measure_pressure(world, pressure);
+    gb_world_pressure(world, pressure);
 }
 
 /* Energy in the springs of a contact of radius a; their loads act over the whole relative

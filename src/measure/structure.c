@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "pack/structure/grid_search.h"
+#include "pack/structure/grid.h"
 
 /* A grid finer than this share of the reach makes a search visit more cells than it
  * saves points. */
@@ -40,8 +40,8 @@ static void count_pairs(const struct gb_grid *grid, double r_max, int bins, doub
     for (int64_t i = 0; i < grid->count; i++) {
         struct gb_grid_ball ball;
         struct gb_grid_hit hit;
-        gb_grid_search_ball_init(&ball, grid, grid->position + 3 * i, r_max);
-        while (gb_grid_search_ball_next(&ball, &hit)) {
+        gb_grid_ball_init(&ball, grid, grid->position + 3 * i, r_max);
+        while (gb_grid_ball_next(&ball, &hit)) {
             const int bin = (int)(sqrt(hit.square) / r_max * bins);
             if (hit.index > i && bin < bins) {
                 pairs[bin] += 1.0;
@@ -209,8 +209,8 @@ static void join_neighbours(const struct gb_grid *grid, double reach,
         struct gb_grid_ball ball;
         struct gb_grid_hit hit;
         int neighbours = 0;
-        gb_grid_search_ball_init(&ball, grid, grid->position + 3 * (int64_t)i, most);
-        while (gb_grid_search_ball_next(&ball, &hit)) {
+        gb_grid_ball_init(&ball, grid, grid->position + 3 * (int64_t)i, most);
+        while (gb_grid_ball_next(&ball, &hit)) {
             const bool self = hit.index == i && hit.image[0] == 0 && hit.image[1] == 0 &&
                               hit.image[2] == 0;
             if (!self && is_neighbour(&hit, i, reach, radius)) {

@@ -63,3 +63,31 @@ double gb_tensor_largest_deviator(const double tensor[3][3], int dimension)
     const double cosine = 1.5 * sqrt(3.0) * j3 / (j2 * sqrt(j2));
     return 2.0 * sqrt(j2 / 3.0) * cos(acos(fmax(-1.0, fmin(1.0, cosine))) / 3.0);
 }
+
+/* Sum over weight; NaN without a weight. */
+static void mean_tensor(const struct gb_fabric_sums *sums, int kind, double tensor[3][3])
+{
+    static const int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+    for (int a = 0; a < 9; a++) {
+        tensor[a / 3][a % 3] =
+            sums->tensor[kind][component[a / 3][a % 3]] / sums->weight[kind];
+    }
+}
+
+void gb_tensor_fabric(const struct gb_world *world, double pressure[3][3],
+                      struct gb_fabric *fabric)
+{
+    const int dimension = gb_world_model(world)->dimension;
+    struct gb_fabric_sums sums = {.weight = {0}};
+    gb_world_tensors(world, pressure, &sums);
+    for (int kind = 0; kind < GB_FABRIC_KINDS; kind++) {
+        double tensor[3][3];
+        mean_tensor(&sums, kind, tensor);
+        fabric->anisotropy[kind] =
+            (dimension == 3 ? 1.5 : 2.0) *
+            gb_tensor_largest_deviator((const double(*)[3])tensor, dimension);
+    }
+    for (int k = 0; k < 6; k++) {
+        fabric->all[k] = sums.tensor[GB_FABRIC_ALL][k] / sums.weight[GB_FABRIC_ALL];
+    }
+}

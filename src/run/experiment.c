@@ -11,7 +11,6 @@
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
 #include "run/packing_state.h"
-#include "run/point_measure.h"
 #include "scene/field/changes.h"
 #include "scene/imported/imported.h"
 
@@ -124,7 +123,7 @@ static enum gb_step_outcome stop(struct gb_experiment *experiment)
 /* The packing is back where an unloading branch began, on the loading branch. */
 static void measure_restored(struct gb_experiment *experiment)
 {
-    gb_point_measure_packing(experiment->loading, &experiment->shown);
+    gb_packing_state_packing(experiment->loading, &experiment->shown);
     experiment->shown.branch = GB_BRANCH_LOAD;
     experiment->shown.branch_from_pa = 0.0;
     experiment->shown.step = experiment->step;
@@ -134,7 +133,7 @@ static void measure_restored(struct gb_experiment *experiment)
 static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_error *err)
 {
     struct gb_loading *loading = experiment->loading;
-    gb_point_measure_step(loading, experiment->elastic_start, &experiment->point);
+    gb_packing_state_step(loading, experiment->elastic_start, &experiment->point);
     experiment->point.step = experiment->step++;
     experiment->unrelaxed += experiment->point.unrelaxed > 0.0;
     experiment->shown = experiment->point;
@@ -229,7 +228,7 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
 {
     snapshot->now = experiment->point;
     snapshot->now_valid = experiment->step > 0;
-    gb_point_measure_live(experiment->loading, snapshot);
+    gb_packing_state_live(experiment->loading, snapshot);
     snapshot->progress = gb_experiment_progress(experiment);
 }
 

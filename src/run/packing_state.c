@@ -4,12 +4,277 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/portable.h"
 #include "base/vec.h"
+#include "greenbody/curve.h"
+#include "greenbody/snapshot.h"
+#include "io/point_columns.h"
 #include "io/state/state_record.h"
 #include "measure/observe.h"
 #include "measure/observe_die.h"
+#include "measure/tensor.h"
+#include "pack/cell/world.h"
+#include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"
-#include "run/point_measure.h"
+#include "solve/loading/compressed_axes.h"
+#include "solve/loading/loading.h"
+
+/* Measures of a packing as a row of curve.csv, in SI.  The members step and seconds are
+ * the caller's. */
+
+static int branch_of(const struct gb_loading_report *report)
+{
+    static const int branch[] = {[GB_LOADING_RELAX] = GB_BRANCH_RELAX,
+                                 [GB_LOADING_LOAD] = GB_BRANCH_LOAD,
+                                 [GB_LOADING_HOLD] = GB_BRANCH_HOLD,
+                                 [GB_LOADING_UNLOAD] = GB_BRANCH_UNLOAD,
+                                 [GB_LOADING_CONFINED] = GB_BRANCH_CONFINED,
+                                 [GB_LOADING_EJECT] = GB_BRANCH_EJECT,
+                                 [GB_LOADING_EJECTED] = GB_BRANCH_EJECTED};
+    return report->unloading > 0 ? report->unloading
+           : report->begun > 1   ? GB_BRANCH_LEG - report->begun
+                                 : branch[report->stage];
+}
+
+static double second_per_time(const struct gb_loading *loading)
+{
+    return loading->bed ? loading->model->die.second_per_time
+                        : loading->model->dynamics.second_per_time;
+}
+
+/* Members of periodic cells. */
+static void leave_tensors_empty(struct gb_point *point)
+{
+    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+        *gb_point_columns_member(point, k) = NAN;
+    }
+}
+
+/* Pressures beside the normal ones, strain of the cell, fabric of the contacts. */
+static void measure_tensors(const struct gb_loading *loading, const double pressure[3][3],
+                            const struct gb_fabric *fabric, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const struct gb_cell *cell = gb_world_cell(loading->world);
+    const double pascal = model->pascal_per_stress;
+    static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+    for (int k = 0; k < 3; k++) {
+        point->shear_pa[k] =
+            0.5 * pascal * (pressure[row[k]][column[k]] + pressure[column[k]][row[k]]);
+        point->strain[k] = gb_portable_log(model->edges[k] / cell->edge[k]);
+        point->strain[3 + k] = cell->shear[k];
+    }
+    point->q_pa = pascal * gb_tensor_deviatoric(pressure, model->dimension);
+    point->asymmetry = gb_tensor_asymmetry(pressure, model->dimension);
+    memcpy(point->fabric, fabric->all, sizeof point->fabric);
+    memcpy(point->anisotropy, fabric->anisotropy, sizeof point->anisotropy);
+    if (model->dimension == 2) {
+        point->shear_pa[0] = point->shear_pa[2] = NAN;
+        point->strain[1] = point->strain[3] = point->strain[5] = NAN;
+        point->fabric[1] = point->fabric[3] = point->fabric[5] = NAN;
+    }
+}
+
+/* Members of dies and of dynamic scenes. */
+static void leave_empty(struct gb_point *point)
+{
+    for (size_t k = GB_POINT_COLUMNS; k < GB_POINT_ALL_COLUMNS; k++) {
+        *gb_point_columns_member(point, k) = NAN;
+    }
+    const double none = (double)NAN;
+    point->time_s = point->kinetic = point->work = point->elastic = none;
+    point->dissipated = point->energy_residual = none;
+    point->central = point->height_m = point->height_change = none;
+    point->target_pa = point->floor_over_punch = none;
+}
+
+/* state.h5 does not name the stages of a run at a given rate. */
+static int branch_in_cell(const struct gb_loading *loading,
+                          const struct gb_loading_report *report)
+{
+    return gb_loading_kind_of(loading->params)->given_rate ? GB_BRANCH_RELAX
+                                                           : branch_of(report);
+}
+
+static void measure_cell(const struct gb_loading *loading, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const struct gb_loading_report report = loading->mode->report(loading);
+    const struct gb_compressed_axes axes = gb_compressed_axes_of(model);
+    const double pascal = model->pascal_per_stress;
+    double tensor[3][3];
+    struct gb_contact_counts counts;
+    struct gb_fabric fabric;
+    gb_tensor_fabric(loading->world, tensor, &fabric);
+    const double pressure[3] = {tensor[0][0], tensor[1][1], tensor[2][2]};
+    gb_observe_contacts(loading->world, &counts, NULL, 0, NULL);
+    *point = (struct gb_point){
+        .branch = branch_in_cell(loading, &report),
+        .branch_from_pa = report.unloading > 0
+                              ? loading->params->unload_from_pa[report.unloading - 1]
+                              : 0.0,
+        .density = gb_observe_density(loading->world),
+        .px_pa = pressure[0] * pascal,
+        .py_pa = model->dimension == 3 ? pressure[1] * pascal : (double)NAN,
+        .pz_pa = pressure[2] * pascal,
+        .p_pa = gb_compressed_axes_mean(&axes, pressure) * pascal,
+        .coordination = counts.coordination,
+        .bridged =
+            counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts : 0.0,
+        .rattlers = (double)counts.rattlers / (double)model->count,
+        .residual = report.residual,
+    };
+    leave_empty(point);
+    measure_tensors(loading, (const double(*)[3])tensor, &fabric, point);
+    point->unrelaxed = report.unrelaxed;
+    point->leg = report.leg > 0 ? report.leg : (double)NAN;
+}
+
+/* Forces on the die and what the compact has sprung back. */
+static void measure_cycle(const struct gb_loading *loading,
+                          const struct gb_loading_report *report, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const double pascal = model->pascal_per_stress;
+    double third[3], whole = 0.0;
+    gb_observe_die_wall(loading->bed, report->contact, 1, &whole);
+    gb_observe_die_wall(loading->bed, report->contact, 3, third);
+    for (int k = 0; k < 3; k++) {
+        point->wall_third_pa[k] = third[k] * pascal;
+    }
+    point->floor_pa = report->floor * pascal;
+    point->wall_pa = whole * pascal;
+    point->wall_friction_n = report->drag * model->newton_per_force;
+    point->punch_work = report->work * model->newton_per_force * model->metre_per_length;
+    point->axial_springback = report->axial;
+    point->radial_springback = report->radial;
+    point->welded = report->welded;
+}
+
+static void measure_die(const struct gb_loading *loading, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const struct gb_loading_report report = loading->mode->report(loading);
+    const double pascal = model->pascal_per_stress;
+    struct gb_contact_counts counts;
+    gb_observe_die_contacts(loading->bed, &counts, NULL, 0, NULL);
+    *point = (struct gb_point){
+        .branch = branch_of(&report),
+        .density = gb_observe_die_density(loading->bed, report.height),
+        .px_pa = report.pressure[0] * pascal,
+        .py_pa = report.pressure[1] * pascal,
+        .pz_pa = report.pressure[2] * pascal,
+        .p_pa = report.pressure[2] * pascal,
+        .coordination = counts.coordination,
+        .bridged = NAN,
+        .rattlers = (double)counts.rattlers / (double)model->count,
+        .residual = report.residual,
+        .iterations = report.iterations,
+        .evaluations = report.evaluations,
+    };
+    leave_empty(point);
+    leave_tensors_empty(point);
+    point->time_s = report.time * model->die.second_per_time;
+    point->central =
+        gb_observe_die_central(loading->bed, report.height, model->die.central_radius);
+    point->height_m = report.height * model->metre_per_length;
+    point->height_change = report.height0 > 0.0
+                               ? (report.height - report.height0) / report.height0
+                               : (double)NAN;
+    point->target_pa = report.target_pressure * pascal;
+    point->floor_over_punch = report.floor_over_punch;
+    measure_cycle(loading, &report, point);
+    if (report.stage == GB_LOADING_EJECTED) { /* out of the bore */
+        point->density /= (1.0 + report.radial) * (1.0 + report.radial);
+    }
+}
+
+void gb_packing_state_packing(const struct gb_loading *loading, struct gb_point *point)
+{
+    if (loading->bed) {
+        measure_die(loading, point);
+    } else {
+        measure_cell(loading, point);
+    }
+}
+
+/* Energies in J; elastic and dissipated since the start. */
+static void measure_energies(const struct gb_loading *loading,
+                             const struct gb_loading_report *report, double elastic_start,
+                             struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const double joule = model->newton_per_force * model->metre_per_length;
+    const double elastic = gb_observe_elastic(loading->world) - elastic_start;
+    const double lost = report->work - report->kinetic - report->absorbed;
+    point->kinetic = report->kinetic * joule;
+    point->work = report->work * joule;
+    point->elastic = elastic * joule;
+    point->dissipated = (report->absorbed - elastic) * joule;
+    point->energy_residual =
+        report->work != 0.0 ? lost / fabs(report->work) : (double)NAN;
+}
+
+void gb_packing_state_step(const struct gb_loading *loading, double elastic_start,
+                           struct gb_point *point)
+{
+    const struct gb_loading_kind *kind = gb_loading_kind_of(loading->params);
+    const struct gb_loading_report report = loading->mode->report(loading);
+    gb_packing_state_packing(loading, point);
+    point->branch = branch_of(&report);
+    point->iterations = report.iterations;
+    point->evaluations = report.evaluations;
+    if (kind->follows_time) {
+        point->time_s = report.time * second_per_time(loading);
+    }
+    if (kind->columns == GB_COLUMNS_ENERGY) {
+        measure_energies(loading, &report, elastic_start, point);
+    }
+}
+
+/* Before its first point a run in a die is known by these alone. */
+static void measure_stage(const struct gb_loading *loading, double coordination,
+                          struct gb_stage_report *report)
+{
+    const double none = (double)NAN;
+    *report = (struct gb_stage_report){.value = none,
+                                       .goal = none,
+                                       .share = none,
+                                       .timed = none,
+                                       .time_s = none,
+                                       .height_m = none,
+                                       .kinetic_j = none,
+                                       .coordination = coordination};
+    if (loading->mode->stage == NULL) {
+        return;
+    }
+    loading->mode->stage(loading, report);
+    if (loading->bed->die.funnel) {
+        report->height_m =
+            gb_observe_die_filled(loading->bed) * loading->model->metre_per_length;
+    }
+}
+
+void gb_packing_state_live(const struct gb_loading *loading, struct gb_snapshot *snapshot)
+{
+    const struct gb_loading_report report = loading->mode->report(loading);
+    struct gb_contact_counts counts;
+    if (loading->bed) {
+        gb_observe_die_contacts(loading->bed, &counts, snapshot->histogram,
+                                GB_SNAPSHOT_HISTOGRAM, NULL);
+        gb_observe_die_rose(loading->bed, GB_SNAPSHOT_ROSE, snapshot->rose);
+    } else {
+        gb_observe_contacts(loading->world, &counts, snapshot->histogram,
+                            GB_SNAPSHOT_HISTOGRAM, NULL);
+        gb_observe_rose(loading->world, GB_SNAPSHOT_ROSE, snapshot->rose);
+    }
+    measure_stage(loading, counts.coordination, &snapshot->stage);
+    snapshot->evaluations = gb_loading_evaluations(loading);
+    snapshot->live_residual = report.residual;
+    if (gb_loading_kind_of(loading->params)->follows_time) {
+        snapshot->time_step_s = report.time_step * second_per_time(loading);
+    }
+}
 
 static void copy_world_pairs(const struct gb_world *world, struct gb_state *state)
 {
@@ -109,8 +374,8 @@ static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
                      struct gb_error *err)
 {
     const struct gb_bed *bed = loading->bed;
-    const double radius = gb_state_record_half_width(
-        (const double(*)[4])bed->position, bed->count, &bed->die);
+    const double radius = gb_state_record_half_width((const double(*)[4])bed->position,
+                                                     bed->count, &bed->die);
     struct gb_contact_counts counts;
     gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
     if (!gb_state_create(out, bed->count, counts.contacts, err)) {
@@ -141,7 +406,7 @@ bool gb_packing_state_copy(const struct gb_loading *loading, struct gb_state **o
         return false;
     }
     struct gb_state *state = *out;
-    gb_point_measure_packing(loading, &state->point);
+    gb_packing_state_packing(loading, &state->point);
     gb_state_record_model(state, model);
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;

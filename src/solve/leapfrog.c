@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/portable.h"
-#include "pack/die/bed_drift.h"
+#include "pack/die/bed_sweep.h"
 #include "scene/tolerances.h"
 
 void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
@@ -64,7 +64,7 @@ static double kick(const struct gb_leapfrog *leapfrog, struct gb_bed *bed, doubl
                                           .step = step,
                                           .gravity = leapfrog->gravity,
                                           .drag = leapfrog->drag};
-    return gb_bed_drift_kick(bed, &by);
+    return gb_bed_sweep_kick(bed, &by);
 }
 
 /* The first step: neither forces are known yet nor what holds the particles, which the second
@@ -88,7 +88,7 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
     if (!(leapfrog->step > 0.0) && !begin(leapfrog, bed, err)) {
         return false;
     }
-    const double deviation2 = gb_bed_drift(bed, leapfrog->step);
+    const double deviation2 = gb_bed_sweep_drift(bed, leapfrog->step);
     bed->die.punch_position += leapfrog->step * bed->die.punch_velocity;
     bed->die.top += leapfrog->step * bed->die.side_velocity;
     if (!gb_bed_evaluate_blocks(bed, leapfrog->step, deviation2, err)) {

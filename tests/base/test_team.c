@@ -8,7 +8,6 @@
 
 #include "base/alloc.h"
 #include "base/team/team.h"
-#include "base/team/team_pace.h"
 
 static struct gb_team *team_of(int threads)
 {

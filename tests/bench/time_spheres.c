@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/vec.h"
 #include "measure/observe_die.h"
-#include "pack/die/bed_order.h"
+#include "pack/die/bed_list.h"
 #include "solve/leapfrog.h"
 #include "spheres.h"
 
@@ -43,7 +43,7 @@ static bool settle(struct gb_bed **bed, const GArray *spheres, struct gb_error *
         (*bed)->position[i][2] += 10.0 - low;
     }
     g_free(radius);
-    return done && gb_bed_order_renumber(*bed, err); /* LAMMPS sorts them as well */
+    return done && gb_bed_list_renumber(*bed, err); /* LAMMPS sorts them as well */
 }
 
 /* Sum of force times distance over the contacts, divided by the dimension. */

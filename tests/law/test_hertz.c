@@ -5,8 +5,8 @@
 
 #include "base/vec.h"
 #include "common/exact.h"
+#include "common/mindlin.h"
 #include "law/law_hertz.h"
-#include "law/law_mindlin.h"
 
 static const struct gb_elastic nial = {180e9, 0.30};
 static const double yield_nial = 800e6;
@@ -201,15 +201,15 @@ static void test_rotate(void)
         }
         gb_vec_scale(normal, 1.0 / gb_vec_length(normal));
         const double length = gb_vec_length(force);
-        gb_law_mindlin_rotate(force, normal);
+        mindlin_rotate(force, normal);
         assert_close(gb_vec_length(force), length, 1e-14);
         g_assert_cmpfloat(fabs(gb_vec_dot(force, normal)), <, 1e-13 * length);
     }
     g_rand_free(random);
     double lost[3] = {0.0, 0.0, 2.0}, none[3] = {0.0, 0.0, 0.0};
     const double normal[3] = {0.0, 0.0, 1.0};
-    gb_law_mindlin_rotate(lost, normal);
-    gb_law_mindlin_rotate(none, normal);
+    mindlin_rotate(lost, normal);
+    mindlin_rotate(none, normal);
     g_assert_cmpfloat(gb_vec_length(lost) + gb_vec_length(none), ==, 0.0);
 }
 
@@ -222,20 +222,20 @@ static void test_slip(void)
     double slip[3], lever[3] = {0.0, 0.0, 0.0}, orbit[3];
     gb_vec_add(lever, ri + rj, normal);
     gb_vec_cross(spin, lever, orbit); /* velocity of i around j */
-    gb_law_mindlin_slip(normal, orbit, still, spin, spin, ri, rj, slip);
+    mindlin_slip(normal, orbit, still, spin, spin, ri, rj, slip);
     g_assert_cmpfloat(gb_vec_length(slip), <, 1e-20);
     double counter[3] = {0.0, 0.0, 0.0};
     gb_vec_add(counter, -ri / rj, spin);
-    gb_law_mindlin_slip(normal, still, still, spin, counter, ri, rj, slip);
+    mindlin_slip(normal, still, still, spin, counter, ri, rj, slip);
     g_assert_cmpfloat(gb_vec_length(slip), <, 1e-20);
     /* a ball above the ground (j below i, n up) that spins about y, its underside going
      * to -x */
     const double up[3] = {0.0, 0.0, 1.0}, about_y[3] = {0.0, 2.0, 0.0};
-    gb_law_mindlin_slip(up, still, still, about_y, still, ri, 0.0, slip);
+    mindlin_slip(up, still, still, about_y, still, ri, 0.0, slip);
     g_assert_cmpfloat_with_epsilon(slip[0], -2.0 * ri, 1e-20);
     /* the normal part of a velocity is no slip */
     const double away[3] = {1.0, 0.0, 5.0};
-    gb_law_mindlin_slip(up, away, still, still, still, ri, rj, slip);
+    mindlin_slip(up, away, still, still, still, ri, rj, slip);
     g_assert_cmpfloat(slip[0], ==, 1.0);
     g_assert_cmpfloat(slip[2], ==, 0.0);
 }
@@ -252,8 +252,7 @@ static double cycle_cost(double amplitude, double stiffness, double cap, bool *s
         const double sign = phase < 1.0 || phase >= 3.0 ? 1.0 : -1.0;
         const double slip[3] = {0.0, sign * 4.0 * amplitude, 0.0};
         const double before = shear[1];
-        *slid |=
-            gb_law_mindlin_advance(shear, slip, stiffness, 1.0 / STEPS, 0.1, cap / 0.1);
+        *slid |= mindlin_advance(shear, slip, stiffness, 1.0 / STEPS, 0.1, cap / 0.1);
         if (i >= STEPS) {
             cost -= 0.5 * (before + shear[1]) * slip[1] / STEPS;
         }
@@ -272,12 +271,12 @@ static void test_stick_and_slide(void)
     /* opposes the slip, is cut to mu F_n whatever its sign, goes without friction */
     double shear[3] = {0.0, 0.0, 0.0};
     const double slip[3] = {3.0, 4.0, 0.0};
-    g_assert_false(gb_law_mindlin_advance(shear, slip, 2.0, 0.1, 0.5, 10.0));
+    g_assert_false(mindlin_advance(shear, slip, 2.0, 0.1, 0.5, 10.0));
     assert_close(shear[0], -0.6, 1e-14);
     assert_close(shear[1], -0.8, 1e-14);
-    g_assert_true(gb_law_mindlin_advance(shear, slip, 2.0, 0.1, 0.5, 1.0));
+    g_assert_true(mindlin_advance(shear, slip, 2.0, 0.1, 0.5, 1.0));
     assert_close(gb_vec_length(shear), 0.5, 1e-14);
-    g_assert_true(gb_law_mindlin_advance(shear, slip, 2.0, 0.1, 0.0, 1.0));
+    g_assert_true(mindlin_advance(shear, slip, 2.0, 0.1, 0.0, 1.0));
     g_assert_cmpfloat(gb_vec_length(shear), ==, 0.0);
 }
 
@@ -300,7 +299,7 @@ static double shear_gain(double deep, double shallow, double mu)
         for (int i = 0; i < STEPS; i++) {
             const double before = shear[0];
             g_assert_false(
-                gb_law_mindlin_advance(shear, slip, stiffness, 1.0 / STEPS, mu, normal));
+                mindlin_advance(shear, slip, stiffness, 1.0 / STEPS, mu, normal));
             taken -= 0.5 * (before + shear[0]) * slip[0] / STEPS;
         }
     }

@@ -676,14 +676,14 @@ static void test_repeats(void)
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     for (unsigned long sample = 0; sample < TRIALS; sample++) {
         struct curve plain;
-        struct gb_heckel_stretch wanted;
+        struct gb_compaction_fits_heckel_stretch wanted;
         struct gb_error err = {0};
         gsl_rng_set(random, seeds + sample);
         fill(&plain, &truths[7], 0.2 * noise, random);
-        g_assert_true(gb_heckel_stretch(&wanted, &plain.points, &err));
+        g_assert_true(gb_compaction_fits_heckel_stretch(&wanted, &plain.points, &err));
         for (int pattern = 0; pattern < 3; pattern++) {
             struct kind_curve curve = {.points = plain.points};
-            struct gb_heckel_stretch found;
+            struct gb_compaction_fits_heckel_stretch found;
             memcpy(curve.pressure, plain.pressure, sizeof plain.pressure);
             memcpy(curve.density, plain.density, sizeof plain.density);
             curve.points.pressure = curve.pressure;
@@ -693,7 +693,7 @@ static void test_repeats(void)
                     repeat(&curve, i);
                 }
             }
-            g_assert_true(gb_heckel_stretch(&found, &curve.points, &err));
+            g_assert_true(gb_compaction_fits_heckel_stretch(&found, &curve.points, &err));
             const double *p = curve.pressure;
             g_assert_cmpfloat(p[found.first], ==, plain.pressure[wanted.first]);
             g_assert_cmpfloat(p[found.first + found.count - 1], ==,

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "common/scene.h"
-#include "measure/fabric.h"
 #include "measure/tensor.h"
 
 /* Triaxial state: q is the difference of the pressures; simple shear: sqrt(3) times the
@@ -55,7 +54,7 @@ static void test_fabric(void)
     double pressure[3][3];
     struct gb_fabric fabric;
     scene_press(world, 60, 10, 2.0);
-    gb_fabric_measure(world, pressure, &fabric);
+    gb_tensor_fabric(world, pressure, &fabric);
     g_assert_cmpfloat_with_epsilon(fabric.all[0] + fabric.all[1] + fabric.all[2], 1.0,
                                    1e-12);
     g_assert_true(isnan(fabric.anisotropy[GB_FABRIC_BRIDGED])); /* there are none */
@@ -81,7 +80,7 @@ static void test_pair(void)
         g_error("%s", err.text);
     }
     scene_evaluate(world);
-    gb_fabric_measure(world, pressure, &fabric);
+    gb_tensor_fabric(world, pressure, &fabric);
     g_assert_cmpfloat_with_epsilon(fabric.all[2], 1.0, 1e-14);
     g_assert_cmpfloat_with_epsilon(fabric.anisotropy[GB_FABRIC_ALL], 1.0, 1e-7);
     g_assert_cmpfloat_with_epsilon(fabric.anisotropy[GB_FABRIC_FORCE], 1.0, 1e-7);

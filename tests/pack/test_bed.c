@@ -4,10 +4,9 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
-#include "pack/die/bed_copy.h"
-#include "pack/die/bed_drift.h"
+#include "pack/die/bed_sweep.h"
 #include "pack/die/bed_record.h"
-#include "pack/die/random_insertion.h"
+#include "pack/die/filling.h"
 
 /* A cluster of overlapping spheres far from all walls, in motion and rotation. */
 static struct gb_bed *cluster(const struct gb_bed_law *law, int64_t count)
@@ -185,7 +184,7 @@ static void test_moving_list(void)
         for (int64_t i = 0; i < bed->count; i++) {
             gb_vec_scale(bed->velocity[i], factor);
         }
-        g_assert_true(gb_bed_evaluate(bed, 1.0, gb_bed_drift(bed, 1.0), &err));
+        g_assert_true(gb_bed_evaluate(bed, 1.0, gb_bed_sweep_drift(bed, 1.0), &err));
         drawn += bed->listed_evaluation != listed;
         const int64_t touching = check_list(bed);
         least = MIN(least, touching);
@@ -219,7 +218,7 @@ static void test_moving_punch(void)
             const double by = 0.1 * share * step;
             bed->velocity[0][2] = by;
             bed->die.punch_position -= step - by;
-            g_assert_true(gb_bed_evaluate(bed, 1.0, gb_bed_drift(bed, 1.0), &err));
+            g_assert_true(gb_bed_evaluate(bed, 1.0, gb_bed_sweep_drift(bed, 1.0), &err));
             overlap = bed->position[0][2] + radius - bed->die.punch_position;
             g_assert_cmpint(overlap > 0.0, ==, bed->tally.punch > 0.0);
         }
@@ -305,10 +304,10 @@ static void test_copy(void)
     struct gb_bed_copy *copy = NULL;
     uint64_t hash[2];
     bed_evaluate(bed, 0.1);
-    g_assert_true(gb_bed_copy_take(bed, &copy, &err));
+    g_assert_true(gb_bed_record_take(bed, &copy, &err));
     for (int pass = 0; pass < 2; pass++) {
         if (pass == 1) {
-            g_assert_true(gb_bed_copy_restore(bed, copy, &err));
+            g_assert_true(gb_bed_record_restore(bed, copy, &err));
             bed->skin *= 3.0;
         }
         for (int step = 0; step < 50; step++) {
@@ -320,10 +319,10 @@ static void test_copy(void)
                 gb_vec_add(bed->velocity[i], 1e-4, bed->force[i]);
             }
         }
-        hash[pass] = gb_bed_copy_hash(bed);
+        hash[pass] = gb_bed_record_hash(bed);
     }
     g_assert_true(hash[0] == hash[1]);
-    gb_bed_copy_destroy(copy);
+    gb_bed_record_destroy(copy);
     gb_bed_destroy(bed);
 }
 
@@ -352,7 +351,7 @@ static void test_pour(void)
     double first = 0.0;
     const struct gb_seed seeds[] = {{.value = 1}, {.value = 1}, {.value = 2}};
     for (int i = 0; i < 3; i++) {
-        g_assert_true(gb_random_insertion_fill(bed, &seeds[i], 0.2, NULL, NULL, &err));
+        g_assert_true(gb_filling_fill(bed, &seeds[i], 0.2, NULL, NULL, &err));
         g_assert_true(i == 0 || (first == bed->position[7][0]) == (i == 1));
         first = bed->position[7][0];
         bed_evaluate(bed, 0.0);
@@ -362,10 +361,10 @@ static void test_pour(void)
             g_assert_cmpfloat(bed->position[k][2], >, die.height);
         }
     }
-    g_assert_false(gb_random_insertion_fill(bed, &seeds[0], 0.2, stop, NULL, &err));
+    g_assert_false(gb_filling_fill(bed, &seeds[0], 0.2, stop, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
     g_assert_false(
-        gb_random_insertion_fill(bed, &seeds[0], 0.7, NULL, NULL, &err)); /* too dense */
+        gb_filling_fill(bed, &seeds[0], 0.7, NULL, NULL, &err)); /* too dense */
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_bed_destroy(bed);
 }

@@ -5,9 +5,9 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
-#include "pack/die/bed_copy.h"
-#include "pack/die/bed_drift.h"
-#include "pack/die/bed_order.h"
+#include "pack/die/bed_record.h"
+#include "pack/die/bed_sweep.h"
+#include "pack/die/bed_list.h"
 
 enum { COUNT = 700, STEPS = 300 };
 
@@ -76,7 +76,7 @@ static void move(struct gb_bed *bed, int steps)
     const double step = 0.02;
     struct gb_error err = {0};
     for (int n = 0; n < steps; n++) {
-        const double deviation2 = gb_bed_drift(bed, step);
+        const double deviation2 = gb_bed_sweep_drift(bed, step);
         bed->die.punch_position += step * bed->die.punch_velocity;
         g_assert_true(gb_bed_evaluate_blocks(bed, step, deviation2, &err));
         const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
@@ -85,7 +85,7 @@ static void move(struct gb_bed *bed, int steps)
                                               .inertia = bed->inertia,
                                               .step = step,
                                               .drag = 2.0};
-        gb_bed_drift_kick(bed, &by);
+        gb_bed_sweep_kick(bed, &by);
     }
 }
 
@@ -100,7 +100,7 @@ static void test_threads(void)
         struct gb_bed *bed = powder();
         g_assert_true(gb_bed_use_threads(bed, threads[t], &err));
         move(bed, STEPS);
-        const uint64_t hash = gb_bed_copy_hash(bed);
+        const uint64_t hash = gb_bed_record_hash(bed);
         g_assert_cmpint(bed->blocks.crossing[bed->blocks.count], >, COUNT / 10);
         g_assert_cmpfloat(bed->tally.floor, >, 0.0);
         g_assert_cmpfloat(bed->tally.punch, >, 0.0);
@@ -210,7 +210,7 @@ static void test_numbers(void)
     struct gb_error err = {0};
     move(bed, 40);
     move(other, 40);
-    g_assert_true(gb_bed_order_renumber(bed, &err));
+    g_assert_true(gb_bed_list_renumber(bed, &err));
     for (int n = 0; n < 3; n++) {
         const struct sums a = sums_of(bed), b = sums_of(other);
         const double *x = &a.force, *y = &b.force;
@@ -234,18 +234,18 @@ static void test_numbers_copy(void)
     struct gb_error err = {0};
     move(bed, 40);
     const struct sums before = sums_of(bed);
-    g_assert_true(gb_bed_copy_take(bed, &copy, &err));
-    const uint64_t hash = gb_bed_copy_hash(bed);
-    g_assert_true(gb_bed_order_renumber(bed, &err));
-    g_assert_cmpuint(gb_bed_copy_hash(bed), !=, hash);
-    g_assert_true(gb_bed_copy_restore(bed, copy, &err));
-    g_assert_cmpuint(gb_bed_copy_hash(bed), ==, hash);
+    g_assert_true(gb_bed_record_take(bed, &copy, &err));
+    const uint64_t hash = gb_bed_record_hash(bed);
+    g_assert_true(gb_bed_list_renumber(bed, &err));
+    g_assert_cmpuint(gb_bed_record_hash(bed), !=, hash);
+    g_assert_true(gb_bed_record_restore(bed, copy, &err));
+    g_assert_cmpuint(gb_bed_record_hash(bed), ==, hash);
     g_assert_cmpfloat_with_epsilon(sums_of(bed).x, before.x, 1e-12 * before.x);
     for (int64_t i = 0; i < bed->count; i++) {
         const double d = 2.0 * bed->position[i][3];
         g_assert_cmpfloat(bed->mass[i], ==, d * d * d);
     }
-    gb_bed_copy_destroy(copy);
+    gb_bed_record_destroy(copy);
     gb_bed_destroy(bed);
 }
 

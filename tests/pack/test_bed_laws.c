@@ -4,7 +4,7 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
-#include "law/law_mindlin.h"
+#include "common/mindlin.h"
 #include "pack/kernel/bed_batch.h"
 #include "pack/kernel/bed_laws.h"
 
@@ -74,11 +74,10 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
                               : 0.0;
     const double lever_length[2] = {m->radius[0] * r / reach, m->radius[1] * r / reach};
     const double still[3] = {0.0, 0.0, 0.0};
-    gb_law_mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], lever_length[0],
-                        lever_length[1], slip);
-    gb_law_mindlin_rotate(state->shear, n);
-    gb_law_mindlin_advance(state->shear, slip, law->shear * branch.stiffness, step, mu,
-                           fn);
+    mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], lever_length[0],
+                 lever_length[1], slip);
+    mindlin_rotate(state->shear, n);
+    mindlin_advance(state->shear, slip, law->shear * branch.stiffness, step, mu, fn);
     for (int k = 0; k < 3; k++) {
         state->shear[k] = h > 0.0 ? state->shear[k] : 0.0;
         force[k] = fn * n[k] + state->shear[k];

@@ -5,7 +5,7 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
-#include "pack/die/bed_copy.h"
+#include "pack/die/bed_record.h"
 #include "pack/die/bed_welds.h"
 
 /* Cold welds of two spheres in a wide die without gravity. */
@@ -129,24 +129,24 @@ static void test_copies(void)
     struct gb_bed *bed = welded_pair(&law);
     struct gb_bed_copy *copy = NULL;
     pull(bed, 1e-5);
-    const uint64_t hash = gb_bed_copy_hash(bed);
-    g_assert_true(gb_bed_copy_take(bed, &copy, &err));
+    const uint64_t hash = gb_bed_record_hash(bed);
+    g_assert_true(gb_bed_record_take(bed, &copy, &err));
     g_assert_true(gb_bed_welds_record(bed, &record, &err));
     pull(bed, 0.1);
     g_assert_cmpint((int)bed->welds->count, ==, 0);
-    g_assert_true(gb_bed_copy_restore(bed, copy, &err));
-    g_assert_true(gb_bed_copy_hash(bed) == hash);
+    g_assert_true(gb_bed_record_restore(bed, copy, &err));
+    g_assert_true(gb_bed_record_hash(bed) == hash);
     gb_bed_welds_destroy(bed->welds);
     bed->welds = NULL;
-    g_assert_true(gb_bed_copy_hash(bed) != hash);
+    g_assert_true(gb_bed_record_hash(bed) != hash);
     record.loading = true;
     g_assert_true(gb_bed_welds_record(bed, &record, &err));
-    g_assert_true(gb_bed_copy_hash(bed) == hash);
+    g_assert_true(gb_bed_record_hash(bed) == hash);
     ((int32_t *)gb_record_find(&record, "welds/second")->data)[0] = 7;
     g_assert_false(gb_bed_welds_record(bed, &record, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_record_finish(&record);
-    gb_bed_copy_destroy(copy);
+    gb_bed_record_destroy(copy);
     gb_bed_destroy(bed);
 }
 

@@ -4,9 +4,8 @@
 #include "common/packing.h"
 #include "common/unequal.h"
 #include "pack/structure/assign_sizes.h"
-#include "pack/structure/chain_ray.h"
+#include "pack/structure/chain_growth.h"
 #include "pack/structure/random.h"
-#include "pack/structure/roll.h"
 
 /* Images of the cell on either side: as far as the longest ray and its particles. */
 enum { IMAGES = 2 };
@@ -140,7 +139,7 @@ static struct before look_before(const struct gb_chain_ray *growth, int64_t orig
     memcpy(before.start, growth->grid->position + 3 * origin, sizeof before.start);
     g_assert_cmpint(growth->grid->count, <, G_N_ELEMENTS(before.touch));
     for (int64_t j = 0; j < growth->grid->count; j++) {
-        before.touch[j] = gb_roll_contact_distance(&roll, j);
+        before.touch[j] = gb_chain_growth_contact_distance(&roll, j);
     }
     return before;
 }
@@ -152,7 +151,7 @@ static int check_ray(struct gb_chain_ray *growth, gsl_rng *rng, int64_t origin)
     const int64_t count = growth->grid->count;
     gsl_rng_memcpy(rng, &growth->rng);
     const struct ray ray = cast(&before, rng);
-    g_assert_true(gb_chain_ray_try(growth, origin) == (ray.free > 0));
+    g_assert_true(gb_chain_growth_try(growth, origin) == (ray.free > 0));
     g_assert_cmpint(growth->grid->count, ==, count + (ray.free > 0));
     if (ray.free > 0) {
         double apart[3];
@@ -188,7 +187,7 @@ static void check(const struct gb_chain_growth *grow)
         g_assert_true(gb_assign_sizes_model(grow->model, growth.diameter, &err));
     }
     gb_grid_insert(growth.grid, first);
-    g_assert_true(gb_chain_ray_try(&growth, 0)); /* the second one has no choice */
+    g_assert_true(gb_chain_growth_try(&growth, 0)); /* the second one has no choice */
     while (growth.grid->count < grow->count && rays < 2 * grow->count) {
         const int64_t origin = (7 * rays) % growth.grid->count;
         choices += check_ray(&growth, &rng, origin);

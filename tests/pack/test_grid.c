@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "pack/structure/grid_search.h"
+#include "pack/structure/grid.h"
 
 enum { POINTS = 200, IMAGES = 4 };
 
@@ -115,8 +115,8 @@ static void check_searches(int dimension, const double edges[3], const double ti
         double sum = 0.0;
         const double reach = g_rand_double_range(random, 0.1, 4.0);
         struct gb_grid_ball ball;
-        gb_grid_search_ball_init(&ball, grid, origin, reach);
-        while (gb_grid_search_ball_next(&ball, &hit)) {
+        gb_grid_ball_init(&ball, grid, origin, reach);
+        while (gb_grid_ball_next(&ball, &hit)) {
             found++;
             sum += add_hit(&hit);
         }
@@ -128,8 +128,8 @@ static void check_searches(int dimension, const double edges[3], const double ti
         struct gb_grid_ray ray;
         found = 0;
         sum = 0.0;
-        gb_grid_search_ray_init(&ray, grid, origin, direction, 1.0, 6.0);
-        while (gb_grid_search_ray_next(&ray, &hit)) {
+        gb_grid_ray_init(&ray, grid, origin, direction, 1.0, 6.0);
+        while (gb_grid_ray_next(&ray, &hit)) {
             found++;
             sum += add_hit(&hit);
         }

@@ -6,7 +6,7 @@
 #include "common/world.h"
 #include "measure/observe.h"
 #include "pack/cell/nonaffine.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "pack/cell/world_record.h"
 
 /* Worlds whose cell is tilted. */
@@ -75,8 +75,8 @@ static void check_same_pressure(const struct gb_world *a, const struct gb_world 
                                 double relative)
 {
     double p[2][3][3], scale = 0.0;
-    gb_world_measure_pressure(a, p[0]);
-    gb_world_measure_pressure(b, p[1]);
+    gb_world_pressure(a, p[0]);
+    gb_world_pressure(b, p[1]);
     for (int k = 0; k < 3; k++) {
         scale = fmax(scale, fabs(p[0][k][k]));
     }
@@ -121,10 +121,10 @@ static void test_rotation(void)
     double before[3][3], after[3][3];
     rotation.f[2][0] = -angle;
     scene_press(world, 8, 200, 2.0);
-    gb_world_measure_pressure(world, before);
+    gb_world_pressure(world, before);
     gb_world_deform(world, &rotation);
     scene_evaluate(world);
-    gb_world_measure_pressure(world, after);
+    gb_world_pressure(world, after);
     const double expected = before[0][2] + angle * (before[2][2] - before[0][0]);
     g_assert_cmpfloat(fabs(before[2][2]), >, 1e-6);
     for (int k = 0; k < 3; k++) {
@@ -143,13 +143,13 @@ static void test_round_trip(void)
     scene_press(world, 8, 100, 2.0);
     scene_press(still, 8, 100, 2.0);
     double stress[3][3], sheared[3][3];
-    gb_world_measure_pressure(world, stress);
+    gb_world_pressure(world, stress);
     for (int step = 0; step < 4; step++) {
         const struct gb_deformation shear = simple_shear(0, 2, step < 2 ? 1e-7 : -1e-7);
         gb_world_deform(world, &shear);
         scene_evaluate(world);
         if (step == 1) {
-            gb_world_measure_pressure(world, sheared);
+            gb_world_pressure(world, sheared);
             g_assert_cmpfloat(sheared[0][2], <, stress[0][2]);
         }
     }

@@ -4,8 +4,7 @@
 #include "base/vec.h"
 #include "common/unequal.h"
 #include "measure/observe.h"
-#include "pack/list/list_build.h"
-#include "pack/list/list_scan.h"
+#include "pack/list/neighbour_list.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
 
@@ -207,7 +206,7 @@ static void surround(int64_t count, double edge, double *position, double *diame
 static void test_wide(void)
 {
     enum { COUNT = 3000 };
-    const struct gb_list_build_range range = {1.2, 0.1};
+    const struct gb_neighbour_list_range range = {1.2, 0.1};
     const double edge = 46.0, gap = range.cutoff - 1.0 + range.skin;
     double *x = g_new(double, 3 * COUNT), *d = g_new(double, COUNT);
     struct gb_neighbour_list list;
@@ -220,7 +219,7 @@ static void test_wide(void)
         gb_neighbour_list_init(&list, COUNT, GB_NEIGHBOUR_LIST_TRANSPOSED, &err));
     list.diameter = d;
     list.largest = 20.0;
-    g_assert_true(gb_list_build(&list, &cell, x, range, NULL, &err));
+    g_assert_true(gb_neighbour_list_build(&list, &cell, x, range, NULL, &err));
     for (int64_t i = 0; i < COUNT; i++) {
         for (int64_t j = 0; j < i; j++) {
             double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
@@ -233,7 +232,7 @@ static void test_wide(void)
     }
     const int64_t around = list.near.start[1] + list.far.start[1];
     g_test_message("%d pairs, %d around the large sphere", (int)within, (int)around);
-    g_assert_cmpint(around, >, GB_LIST_SCAN_MAX);
+    g_assert_cmpint(around, >, GB_NEIGHBOUR_LIST_SCAN_MAX);
     g_assert_cmpint(list.near.pair_count, ==, near);
     g_assert_cmpint(list.far.pair_count, ==, within - near);
     gb_neighbour_list_finish(&list);

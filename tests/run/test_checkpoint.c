@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 #include "common/scene.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/repeat_points.h"
@@ -76,8 +76,8 @@ static void compare_pressures(const struct gb_world *one, const struct gb_world 
     if (one == NULL) {
         return; /* a die */
     }
-    gb_world_measure_pressure(one, a);
-    gb_world_measure_pressure(other, b);
+    gb_world_pressure(one, a);
+    gb_world_pressure(other, b);
     g_assert_true(memcmp(a, b, sizeof a) == 0);
 }
 

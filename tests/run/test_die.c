@@ -5,7 +5,7 @@
 #include <glib.h>
 
 #include "common/die.h"
-#include "pack/die/bed_copy.h"
+#include "pack/die/bed_record.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/experiment_private.h"
@@ -43,12 +43,12 @@ static struct curve run(const struct gb_params *params, int64_t slice)
         take_events(experiment, curve.events);
         if (curve.how == GB_STEP_POINT) {
             g_assert_cmpint(curve.count, <, POINTS_MOST);
-            curve.filled = curve.count == 0 ? gb_bed_copy_hash(experiment->loading->bed)
+            curve.filled = curve.count == 0 ? gb_bed_record_hash(experiment->loading->bed)
                                             : curve.filled;
             curve.point[curve.count++] = *gb_experiment_point(experiment);
         }
     } while (curve.how == GB_STEP_MORE || curve.how == GB_STEP_POINT);
-    curve.hash = gb_bed_copy_hash(experiment->loading->bed);
+    curve.hash = gb_bed_record_hash(experiment->loading->bed);
     gb_experiment_destroy(experiment);
     return curve;
 }
@@ -385,8 +385,8 @@ static void check_resumed(const struct gb_params *params, int least)
             g_error("from point %d: %s: row %d differs", k, different, (int)row);
         }
         if (k + 2 == points) {
-            g_assert_true(gb_bed_copy_hash(whole->loading->bed) ==
-                          gb_bed_copy_hash(second->loading->bed));
+            g_assert_true(gb_bed_record_hash(whole->loading->bed) ==
+                          gb_bed_record_hash(second->loading->bed));
         }
         gb_experiment_destroy(second);
     }

@@ -6,7 +6,7 @@
 #include <gsl/gsl_statistics.h>
 
 #include "common/die.h"
-#include "pack/die/bed_copy.h"
+#include "pack/die/bed_record.h"
 #include "pack/die/bed_welds.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
@@ -58,7 +58,7 @@ static struct cycle run(const struct gb_params *params, int64_t slice)
     while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
         g_string_append_printf(cycle.events, "%s\n", text);
     }
-    cycle.hash = gb_bed_copy_hash(experiment->loading->bed);
+    cycle.hash = gb_bed_record_hash(experiment->loading->bed);
     gb_experiment_destroy(experiment);
     return cycle;
 }

@@ -7,7 +7,7 @@
 #include "greenbody/snapshot.h"
 #include "io/preset.h"
 #include "measure/observe_die.h"
-#include "pack/die/bed_copy.h"
+#include "pack/die/bed_record.h"
 #include "pack/die/filling.h"
 #include "solve/loading/die/die_stages.h"
 
@@ -132,7 +132,7 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
     const struct gb_bed_law law = gb_filling_compaction_law(&params);
     const double start = gb_clock_process_s(); /* other work does not lengthen it */
     const int64_t evaluations = bed->evaluations;
-    g_assert_true(gb_bed_copy_restore(bed, filled, &err));
+    g_assert_true(gb_bed_record_restore(bed, filled, &err));
     g_assert_true(gb_die_stages_create(&stages, &model.die, &law, &err));
     g_assert_true(gb_die_stages_begin(stages, bed, &err));
     while (next_point(stages, bed)) {
@@ -174,7 +174,7 @@ static struct bed_result study(int seed, size_t models_pressed)
         g_error("%s", err.text);
     }
     g_assert_true(next_point(stages, bed));
-    g_assert_true(gb_bed_copy_take(bed, &filled, &err));
+    g_assert_true(gb_bed_record_take(bed, &filled, &err));
     const struct gb_die_stages_report report = gb_die_stages_report(stages, bed);
     result.height_um = 1e6 * report.height * model.metre_per_length;
     result.whole = gb_observe_die_density(bed, report.height);
@@ -185,7 +185,7 @@ static struct bed_result study(int seed, size_t models_pressed)
     for (size_t k = 0; k < models_pressed; k++) {
         result.model[k] = press(bed, filled, &models[k], seed);
     }
-    gb_bed_copy_destroy(filled);
+    gb_bed_record_destroy(filled);
     gb_die_stages_destroy(stages);
     gb_bed_destroy(bed);
     return result;

@@ -13,7 +13,7 @@
 
 #include "base/deformation.h"
 #include "common/scene.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "run/experiment.h"
 #include "scene/tolerances.h"
 #include "solve/moduli/moduli.h"
@@ -132,7 +132,7 @@ static struct slopes unload(const struct gb_probe *probe, double size)
     for (int i = 0; i < STEPS; i++) {
         gb_world_deform(world, &expansion);
         relax(fire, world);
-        gb_world_measure_pressure(world, pressure);
+        gb_world_pressure(world, pressure);
         const struct slopes rise = slopes_of((const double(*)[3])probe->pressure,
                                              (const double(*)[3])pressure, -1.0);
         x[i] = (i + 1) * log1p(size);

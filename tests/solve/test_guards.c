@@ -7,7 +7,7 @@
 #include "common/scene.h"
 #include "scene/tolerances.h"
 #include "solve/loading/quasistatic.h"
-#include "solve/relax/guard.h"
+#include "solve/loading/strain_step.h"
 #include "solve/relax/relax.h"
 
 /* Two particles `gap` apart in a wide cell. */
@@ -49,7 +49,7 @@ static void test_jump(void)
         g_assert_cmpfloat_with_epsilon(nonaffine.farthest, 0.5 * (0.55 + model.h_eq),
                                        0.01);
         const enum gb_guard_action action =
-            gb_guard_nonaffine(&guard, &nonaffine, text, sizeof text);
+            gb_strain_step_nonaffine(&guard, &nonaffine, text, sizeof text);
         g_assert_cmpint(action, ==,
                         attempt < GB_NONAFFINE_HALVINGS_MAX ? GB_GUARD_RETRY
                                                             : GB_GUARD_ACCEPT);
@@ -116,11 +116,11 @@ static void check_stall(struct gb_relax *relax, struct gb_world *world)
     g_assert_cmpint(relax->evaluations, >=, 2 * GB_STALL_EVALUATIONS);
     g_assert_cmpint(relax->evaluations, <, relax->max_evaluations / 4);
     relax->tolerance = relax->residual / 1e3;
-    g_assert_cmpint(gb_guard_judge(&guard, outcome, relax, text, sizeof text, &err), ==,
+    g_assert_cmpint(gb_strain_step_judge(&guard, outcome, relax, text, sizeof text, &err), ==,
                     GB_GUARD_STOP);
     g_assert_cmpint(err.code, ==, GB_ERR_NOT_CONVERGED);
     relax->tolerance = relax->residual / 2.0;
-    g_assert_cmpint(gb_guard_judge(&guard, outcome, relax, text, sizeof text, &err), ==,
+    g_assert_cmpint(gb_strain_step_judge(&guard, outcome, relax, text, sizeof text, &err), ==,
                     GB_GUARD_ACCEPT);
     g_assert_nonnull(strstr(text, "the relaxation stalls"));
 }
@@ -165,7 +165,7 @@ static void test_restarted(void)
         .tolerance = 1e-3, .residual = 9e-4, .evaluations = 6000, .restarts = 1};
     char text[400];
     g_assert_cmpint(
-        gb_guard_judge(&guard, GB_RELAX_DONE, &relax, text, sizeof text, &err), ==,
+        gb_strain_step_judge(&guard, GB_RELAX_DONE, &relax, text, sizeof text, &err), ==,
         GB_GUARD_ACCEPT);
     g_assert_nonnull(strstr(text, "restarted"));
 }
@@ -210,7 +210,7 @@ static void test_cross(void)
     g_assert_false(gb_world_evaluate(world, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
     g_assert_nonnull(strstr(err.text, "overlap by 0.6"));
-    while (gb_guard_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err) ==
+    while (gb_strain_step_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err) ==
            GB_GUARD_RETRY) {
         g_assert_nonnull(strstr(text, "strain step halved"));
         retries++;

@@ -5,7 +5,7 @@
 
 #include "base/mat.h"
 #include "common/scene.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "solve/moduli/moduli.h"
 #include "solve/moduli/probe.h"
 

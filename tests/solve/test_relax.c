@@ -6,7 +6,7 @@
 #include "measure/observe.h"
 #include "pack/cell/world_private.h"
 #include "scene/tolerances.h"
-#include "solve/relax/guard.h"
+#include "solve/loading/strain_step.h"
 #include "solve/relax/relax.h"
 #include "solve/relax/relax_fire.h"
 
@@ -330,22 +330,22 @@ static void test_guard(void)
     struct gb_relax relax = {.tolerance = 1e-3, .residual = 2e-3, .evaluations = 100};
     char text[400];
     g_assert_cmpint(
-        gb_guard_judge(&guard, GB_RELAX_DONE, &relax, text, sizeof text, &err), ==,
+        gb_strain_step_judge(&guard, GB_RELAX_DONE, &relax, text, sizeof text, &err), ==,
         GB_GUARD_ACCEPT);
     g_assert_cmpstr(text, ==, "");
     g_assert_cmpint(
-        gb_guard_judge(&guard, GB_RELAX_EXHAUSTED, &relax, text, sizeof text, &err), ==,
+        gb_strain_step_judge(&guard, GB_RELAX_EXHAUSTED, &relax, text, sizeof text, &err), ==,
         GB_GUARD_ACCEPT);
     g_assert_nonnull(strstr(text, "not fully relaxed"));
     relax.residual = 1.0;
     g_assert_cmpint(
-        gb_guard_judge(&guard, GB_RELAX_EXHAUSTED, &relax, text, sizeof text, &err), ==,
+        gb_strain_step_judge(&guard, GB_RELAX_EXHAUSTED, &relax, text, sizeof text, &err), ==,
         GB_GUARD_STOP);
     g_assert_cmpint(err.code, ==, GB_ERR_NOT_CONVERGED);
     int retries = 0;
     for (;;) {
         gb_error_set(&err, GB_ERR_GUARD, "made up");
-        if (gb_guard_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err) ==
+        if (gb_strain_step_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err) ==
             GB_GUARD_STOP) {
             break;
         }
@@ -356,7 +356,7 @@ static void test_guard(void)
     gb_error_set(&err, GB_ERR_MEMORY, "made up");
     guard.halvings = 0;
     g_assert_cmpint(
-        gb_guard_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err), ==,
+        gb_strain_step_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err), ==,
         GB_GUARD_STOP);
 }
 

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "common/transform.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "solve/relax/relax.h"
 
 enum { STRAINS = 4 };
@@ -92,7 +92,7 @@ static void press(struct packed *packed, const struct transform *t,
             gb_world_strain(packed->world, factor);
         }
         relax(packed, method);
-        gb_world_measure_pressure(packed->world, pressure[s]);
+        gb_world_pressure(packed->world, pressure[s]);
     }
     gb_relax_destroy(method);
 }

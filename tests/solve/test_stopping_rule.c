@@ -6,7 +6,6 @@
 #include "common/scene.h"
 #include "scene/normal_law.h"
 #include "solve/relax/relax.h"
-#include "solve/relax/stopping_rule.h"
 
 static const char *const scales[] = {"contact", "attraction", "displacement"};
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/table_build.h"
+#include "base/table.h"
 #include "figures/plotting.h"
 #include "many/key_difference.h"
 #include "study/papers/papers_comparisons.h"

@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/read_file.h"
-#include "base/table_build.h"
+#include "base/table.h"
 #include "io/lab/lab_private.h"
 
 /* --- files of this program ------------------------------------------------------------ */

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "law/law_unequal.h"
-#include "pack/list/list_build.h"
+#include "pack/list/neighbour_list.h"
 
 /* Beyond the reach (d): rounding of positions. */
 static const double skin = 1e-9;
@@ -125,7 +125,7 @@ bool gb_state_gaps_init(struct gb_state_gaps *gaps, const struct gb_state *state
         return true;
     }
     const struct gb_cell cell = gb_state_cell(state);
-    const struct gb_list_build_range range = {state->attraction_cutoff, skin};
+    const struct gb_neighbour_list_range range = {state->attraction_cutoff, skin};
     struct gb_neighbour_list list = {0};
     uint64_t *contact = contact_keys(state, err);
     double *at = contact ? inside(state, &cell, err) : NULL;
@@ -136,7 +136,7 @@ bool gb_state_gaps_init(struct gb_state_gaps *gaps, const struct gb_state *state
         list.diameter = diameter == 1.0 ? list.diameter : at + 3 * state->count;
         list.largest = i > 0 && list.largest > diameter ? list.largest : diameter;
     }
-    done = done && gb_list_build(&list, &cell, at, range, NULL, err) &&
+    done = done && gb_neighbour_list_build(&list, &cell, at, range, NULL, err) &&
            collect(gaps, state, &list, at, contact, err);
     gb_neighbour_list_finish(&list);
     gb_alloc_free(contact);

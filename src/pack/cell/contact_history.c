@@ -16,8 +16,9 @@ void gb_contact_history_finish(struct gb_contact_history *history)
     *history = (struct gb_contact_history){0};
 }
 
-bool gb_contact_history_reserve(struct gb_contact_history *history, int64_t need,
-                                int planes, enum gb_real real, struct gb_error *err)
+/* Room for `need` contacts with `planes` values each; growing loses the contents. */
+static bool reserve(struct gb_contact_history *history, int64_t need, int planes,
+                    enum gb_real real, struct gb_error *err)
 {
     if (need <= history->capacity && planes == history->planes && real == history->real) {
         return true;
@@ -165,9 +166,8 @@ bool gb_contact_history_write(struct gb_contact_history *history,
     const bool lists = engine->state.lists != GB_ENGINE_NO_LISTS;
     const int planes = lists ? engine->contacts.kept : 1;
     struct transfer transfer = {history, engine, 0};
-    if (!count_parts(&transfer, err) ||
-        !gb_contact_history_reserve(history, history->begin[history->parts], planes,
-                                    engine->state.real, err)) {
+    if (!count_parts(&transfer, err) || !reserve(history, history->begin[history->parts],
+                                                 planes, engine->state.real, err)) {
         return false;
     }
     gb_team_run(engine->team, history->parts, write_item, &transfer);
@@ -315,7 +315,7 @@ bool gb_contact_history_record(struct gb_contact_history *history,
     int64_t rows = history->count;
     if (record->loading &&
         (!gb_record_rows(record, names->pair, GB_RECORD_INT32, 2, &rows, err) ||
-         !gb_contact_history_reserve(history, rows, planes, real, err))) {
+         !reserve(history, rows, planes, real, err))) {
         return false;
     }
     history->count = rows;

@@ -24,10 +24,6 @@ struct gb_contact_history {
 
 void gb_contact_history_finish(struct gb_contact_history *history);
 
-/* Room for `need` contacts with `planes` values each; growing loses the contents. */
-bool gb_contact_history_reserve(struct gb_contact_history *history, int64_t need,
-                                int planes, enum gb_real real, struct gb_error *err);
-
 /* Writes every contact of the engine, in the order of its list. */
 bool gb_contact_history_write(struct gb_contact_history *history,
                               const struct gb_engine *engine, struct gb_error *err);

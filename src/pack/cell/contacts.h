@@ -2,10 +2,22 @@
 #define GB_PACK_CELL_CONTACTS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/cell/real.h"
+
+/* Precision of forces, contact histories and velocities.  Fixed for the life of a world
+ * by numerics.precision. */
+enum gb_real {
+    GB_REAL_F64,
+    GB_REAL_F32, /* quasi-static scenes in 3D */
+};
+
+static inline size_t gb_real_size(enum gb_real real)
+{
+    return real == GB_REAL_F32 ? sizeof(float) : sizeof(double);
+}
 
 /* Contact records of the near pairs, one per slot of the list: structure of arrays, so
  * that a batch of them passes through the laws in vector registers.  In 2D (x-z plane)

@@ -7,10 +7,9 @@
 #include "pack/cell/pair_results.h"
 #include "pack/cell/particles.h"
 #include "pack/f32/f32_state.h"
-#include "pack/f32/fixed_position.h"
 #include "pack/kernel/batch/batch.h"
 #include "pack/kernel/tally.h"
-#include "pack/list/missing_pairs.h"
+#include "pack/list/list_check.h"
 #include "pack/list/neighbour_list.h"
 #include "scene/model.h"
 
@@ -33,8 +32,7 @@ struct gb_engine {
     /* Of every block of particles (pack/list/blocks.h). */
     struct gb_list_check_block *check; /* owner: list_check.c */
     struct gb_tally_block *tally;      /* owner: sweep.c */
-    int64_t
-        *block_cost; /* of all blocks before one, blocks + 1; owner: engine_blocks.c */
+    int64_t *block_cost; /* of all blocks before one, blocks + 1; owner: blocks.c */
     struct gb_tally_block total; /* of all blocks; owner: sweep.c */
     double force_rms, torque_rms;
 };

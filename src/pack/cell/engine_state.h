@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pack/cell/real.h"
+#include "pack/cell/contacts.h"
 
 /* The state machine of the periodic engine; docs/engine.md has it as a drawing.  All
  * changes are transitions of engine_state.c; an illegal one is an error of the program

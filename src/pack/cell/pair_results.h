@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/cell/real.h"
+#include "pack/cell/contacts.h"
 #include "scene/model.h"
 
 /* Results of the pairs in double precision, one row per slot of a list; owned by

@@ -8,6 +8,7 @@
 #include "pack/cell/cell.h"
 #include "pack/cell/contacts.h"
 #include "pack/kernel/batch/batch.h"
+#include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/tally.h"
 #include "pack/list/neighbour_list.h"
 #include "scene/model.h"
@@ -121,5 +122,19 @@ void gb_world_copy_destroy(struct gb_world_copy *copy); /* NULL is fine */
 
 /* 64-bit hash over cell, positions and histories: equal states, equal hashes. */
 uint64_t gb_world_hash(const struct gb_world *world);
+
+/* rho = N (pi/6) <d^3> / V; 2D: (pi/4) N d^2 / A. */
+double gb_world_density(const struct gb_world *world);
+
+/* P_ij = (1/V) sum over pairs of f_i r_j, f the whole force on the first particle, r from
+ * the second to it: minus the stress tensor of P1 (16).  E. */
+void gb_world_pressure(const struct gb_world *world, double pressure[3][3]);
+
+/* The same, and what fabric tensors are made of. */
+void gb_world_tensors(const struct gb_world *world, double pressure[3][3],
+                      struct gb_fabric_sums *fabric);
+
+/* The normal pressures P_xx, P_yy, P_zz alone. */
+void gb_world_normal_pressures(const struct gb_world *world, double pressure[3]);
 
 #endif

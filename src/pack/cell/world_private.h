@@ -4,7 +4,7 @@
 #include "pack/cell/contact_history.h"
 #include "pack/cell/engine.h"
 #include "pack/cell/world.h"
-#include "pack/list/contact_carry.h"
+#include "pack/list/engine_lists.h"
 
 /* The sum of an evaluation; 0: of none. */
 struct gb_virial {

@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "pack/cell/engine_lists.h"
 #include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"
-#include "pack/f32/f32_convert.h"
+#include "pack/f32/f32_state.h"
 #include "pack/kernel/pair_forces.h"
+#include "pack/list/engine_lists.h"
 #include "pack/list/list_patch.h"
 
 #define AT(member)     offsetof(struct gb_world, member)
@@ -260,7 +260,7 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
         !record_vectors(world, record, "world/torque", "E d^3", particles->torque, err)) {
         return false;
     }
-    gb_f32_convert_forces_from_f64(engine);
+    gb_f32_state_forces_from_f64(engine);
     return gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
@@ -325,8 +325,8 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
     struct gb_engine *engine = &world->engine;
     struct gb_particles *particles = &engine->particles;
     struct gb_neighbour_list *list = &engine->list;
-    gb_f32_convert_synchronise(engine);
-    gb_f32_convert_forces_to_f64(engine);
+    gb_f32_state_synchronise(engine);
+    gb_f32_state_forces_to_f64(engine);
     return record_build(world, record, err) &&
            record_vectors(world, record, "world/built_at", "d", list->built_position,
                           err) &&

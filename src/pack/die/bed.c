@@ -1,22 +1,150 @@
+/* A bed of spheres of many sizes in a die: storage, lists on time, measures.
+ *
+ * bed_list.c builds the lists, bed_sweep.c computes forces and moves the particles.  This file
+ * owns the arrays, cuts the particles into blocks for the threads, and rebuilds lists when
+ * particles have moved too far for them.  Skins adapt so that rebuilds cost little. */
+
 #include "pack/die/bed.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/team/team.h"
 #include "base/vec.h"
+#include "greenbody/status.h"
 #include "pack/die/bed_list.h"
 #include "pack/die/bed_sweep.h"
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 
+/* ---- Blocks ---- */
+
+/* Consecutive particles of a bed, which one thread computes with the pairs that they are
+ * the first of.  Blocks follow from the number of particles alone, not from that of the threads.
+ * Larger ones have fewer pairs with a particle in another block, each of which has a row of its
+ * own; smaller ones distribute better over threads: the size doubles while this many are left. */
+enum { GB_BED_BLOCKS_SIZE = 128, GB_BED_BLOCKS_SIZE_MAX = 512, GB_BED_BLOCKS_LEFT = 12 };
+
+/* Particles in a block, of so many in all. */
+static int64_t bed_blocks_size(int64_t particles)
+{
+    int64_t size = GB_BED_BLOCKS_SIZE;
+    while (size < GB_BED_BLOCKS_SIZE_MAX && particles >= 2 * size * GB_BED_BLOCKS_LEFT) {
+        size *= 2;
+    }
+    return size;
+}
+
+int64_t gb_bed_blocks_begin(int64_t particles, int64_t b)
+{
+    return b * bed_blocks_size(particles);
+}
+
+int64_t gb_bed_blocks_end(int64_t particles, int64_t b)
+{
+    const int64_t end = gb_bed_blocks_begin(particles, b + 1);
+    return end < particles ? end : particles;
+}
+
+static void release_crossings(struct gb_bed_blocks *blocks)
+{
+    gb_alloc_free(blocks->target);
+    gb_alloc_free(blocks->row);
+    gb_alloc_free(blocks->row_particle);
+    blocks->target = blocks->row = blocks->row_particle = NULL;
+    blocks->room = 0;
+}
+
+static bool make_room(struct gb_bed_blocks *blocks, int64_t crossings,
+                      struct gb_error *err)
+{
+    if (crossings <= blocks->room) {
+        return true;
+    }
+    const size_t room = (size_t)(crossings + crossings / 4);
+    release_crossings(blocks);
+    blocks->target = gb_alloc_array(room, sizeof *blocks->target, err);
+    blocks->row = gb_alloc_array(room, sizeof *blocks->row, err);
+    blocks->row_particle = gb_alloc_array(room, sizeof *blocks->row_particle, err);
+    if (!blocks->target || !blocks->row || !blocks->row_particle) {
+        release_crossings(blocks);
+        return false;
+    }
+    blocks->room = (int64_t)room;
+    return true;
+}
+
+bool gb_bed_blocks_init(struct gb_bed_blocks *blocks, int64_t particles,
+                        struct gb_error *err)
+{
+    const int64_t size = bed_blocks_size(particles);
+    const int64_t count = (particles + size - 1) / size;
+    const size_t ends = (size_t)count + 1;
+    *blocks = (struct gb_bed_blocks){.count = count, .size = size};
+    blocks->block = gb_alloc_array((size_t)count, sizeof *blocks->block, err);
+    blocks->cost = gb_alloc_array(ends, sizeof *blocks->cost, err);
+    blocks->crossing = gb_alloc_array(ends, sizeof *blocks->crossing, err);
+    blocks->entry = gb_alloc_array(ends, sizeof *blocks->entry, err);
+    if (!blocks->block || !blocks->cost || !blocks->crossing || !blocks->entry ||
+        !make_room(blocks, 2 * particles, err)) {
+        gb_bed_blocks_finish(blocks);
+        return false;
+    }
+    return true;
+}
+
+void gb_bed_blocks_finish(struct gb_bed_blocks *blocks)
+{
+    gb_alloc_free(blocks->block);
+    gb_alloc_free(blocks->cost);
+    gb_alloc_free(blocks->crossing);
+    gb_alloc_free(blocks->entry);
+    release_crossings(blocks);
+    *blocks = (struct gb_bed_blocks){0};
+}
+
+bool gb_bed_blocks_number(struct gb_bed_blocks *blocks, struct gb_error *err)
+{
+    for (int64_t b = 0; b < blocks->count; b++) {
+        blocks->crossing[b + 1] = blocks->crossing[b] + blocks->block[b].crossings;
+    }
+    return make_room(blocks, blocks->crossing[blocks->count], err);
+}
+
+void gb_bed_blocks_enter(struct gb_bed_blocks *blocks)
+{
+    int64_t *entry = blocks->entry;
+    const int64_t crossings = blocks->crossing[blocks->count];
+    memset(entry, 0, ((size_t)blocks->count + 1) * sizeof *entry);
+    for (int64_t c = 0; c < crossings; c++) {
+        entry[blocks->target[c] / blocks->size + 1]++;
+    }
+    for (int64_t b = 0; b < blocks->count; b++) {
+        entry[b + 1] += entry[b];
+    }
+    for (int64_t c = 0; c < crossings; c++) { /* entry[b] becomes the end of block b */
+        const int32_t particle = blocks->target[c];
+        const int64_t e = entry[particle / blocks->size]++;
+        blocks->row[e] = (int32_t)c;
+        blocks->row_particle[e] = particle;
+    }
+    memmove(entry + 1, entry, (size_t)blocks->count * sizeof *entry);
+    entry[0] = 0;
+}
+
+/* ---- Storage ---- */
+
 /* Evaluations to aim at between two builds of the candidates, which cost some ten
  * evaluations, and between two lists drawn from them, which cost less than one. */
 static const double candidates_last = 400.0, list_lasts = 24.0;
+
 /* Skins over the smallest radius, at least and at most; near_skin over the skin, at most, and
  * over twice the deviation that is expected. */
 static const double skin_least = 0.01, skin_most = 4.0, near_least = 0.002;
+
 static const double near_most = 0.25, near_margin = 1.5;
 
 static double square(const double x[3])
@@ -164,6 +292,8 @@ void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law)
     bed->listed = false;
 }
 
+/* ---- Evaluation ---- */
+
 void gb_bed_invalidate_lists(struct gb_bed *bed)
 {
     bed->listed = false;
@@ -301,6 +431,8 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double deviation2,
     gb_bed_sweep_sum(bed);
     return true;
 }
+
+/* ---- Measures ---- */
 
 int64_t gb_bed_escaped(const struct gb_bed *bed)
 {

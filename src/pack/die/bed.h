@@ -6,19 +6,68 @@
 
 #include "base/team/team.h"
 #include "greenbody/status.h"
-#include "pack/die/bed_blocks.h"
 #include "pack/die/die.h"
 #include "pack/kernel/bed_batch.h"
 #include "pack/structure/hgrid.h"
+
+/* Forces on the walls, and what limits the time step. */
+struct gb_bed_tally {
+    /* Bound of omega^2 of the modes without friction: the largest (2 k/m* + L)/3 of a contact,
+     * where L is the stiffness of all contacts over the mass, summed over its two bodies.  It
+     * is omega^2 of a lone pair, and what others add where they point in all directions; a
+     * straight chain has 1.5 times it. */
+    double stiffest;
+    /* Largest closing speed times (H/m*)^2 of a listed contact, H its force over h^1.5: by it
+     * the shortest collision that is under way or may begin (gb_leapfrog_impact).  Both bounds
+     * are those of the pairs that the list has, which resumed runs make at the same steps. */
+    double impact;
+    double floor, punch; /* force on them, positive in compression */
+    double side[2];      /* sum of f_x x, f_y y over the side's contacts */
+    double drag;         /* of the side on the powder, along -z */
+};
+
+struct gb_bed_block {
+    _Alignas(64) struct gb_bed_tally tally;
+    double deviation2, fastest; /* of the last step, pack/die/bed_sweep.h */
+    int64_t crossings;          /* listed pairs with a second particle in another block */
+};
+
+/* A pair of two blocks adds the force on its second particle to a row of its own, its
+ * crossing; the block of that particle sums those rows, in the order of the pairs. */
+struct gb_bed_blocks {
+    int64_t count, size; /* blocks, and particles in one */
+    struct gb_bed_block *block;
+    int64_t *cost;     /* of all blocks before, count + 1 */
+    int64_t *crossing; /* first one of each block, count + 1 */
+    int64_t *entry;    /* first one that leads into each block, count + 1 */
+    int64_t room;
+    int32_t *target;             /* second particle of a crossing */
+    int32_t *row, *row_particle; /* by entry: the crossing, and its second particle */
+};
+
+bool gb_bed_blocks_init(struct gb_bed_blocks *blocks, int64_t particles,
+                        struct gb_error *err);
+void gb_bed_blocks_finish(struct gb_bed_blocks *blocks);
+
+/* Particles of block b: those from begin on, before end. */
+int64_t gb_bed_blocks_begin(int64_t particles, int64_t b);
+int64_t gb_bed_blocks_end(int64_t particles, int64_t b);
+
+/* Room for the crossings that the blocks have counted; `crossing` follows.
+ * Errors: GB_ERR_MEMORY. */
+bool gb_bed_blocks_number(struct gb_bed_blocks *blocks, struct gb_error *err);
+
+/* Entries of the crossings, whose targets are known. */
+void gb_bed_blocks_enter(struct gb_bed_blocks *blocks);
 
 /* Spheres of many sizes in a die.  Reduced units: length d (the reference diameter),
  * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
  * fourth of a row is the radius in `position`, in `force` the sum of the normal stiffnesses of
  * the contacts (E d), in `velocity` that over the mass at the last step (1/T^2), and 0
  * elsewhere.  Rotation is that of the surface: `roll` is R w (d/T) and `moment` the torque over R
- * (E d^2), so that contacts need no radius for them.  Behind the rows of the particles are those of
- * the walls (enum gb_die_wall); `force` and `moment` have the walls once for each block, and then
- * the crossings (pack/die/bed_blocks.h). */
+ * (E d^2), so that contacts need no radius for them.  The rows of
+ * the walls follow those of the particles (enum gb_die_wall); `force` and `moment` have the walls once for each block, and then
+ * the crossings (gb_bed_blocks). */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */
@@ -95,12 +144,12 @@ void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law);
 /* Forces and torques at the present positions and velocities; advances the history of
  * every contact over the step since the last evaluation.  deviation2: largest squared
  * deviation of a particle from steady motion since the pairs were listed
- * (pack/die/bed_drift.h).  Errors: GB_ERR_MEMORY. */
+ * (pack/die/bed_sweep.h).  Errors: GB_ERR_MEMORY. */
 bool gb_bed_evaluate(struct gb_bed *bed, double step, double deviation2,
                      struct gb_error *err);
 
 /* The same, but the forces of pairs of two blocks on their second particles are still in the
- * rows of the crossings: gb_bed_drift_kick adds them. */
+ * rows of the crossings: gb_bed_sweep_kick adds them. */
 bool gb_bed_evaluate_blocks(struct gb_bed *bed, double step, double deviation2,
                             struct gb_error *err);
 

@@ -3,6 +3,12 @@
 
 #include "pack/die/bed.h"
 
+/* Numbers the particles anew along a Hilbert curve, so that neighbours in space are
+ * neighbours in memory.  Contacts keep their histories; forces are those of the next
+ * evaluation.  Not for a bed with welds, which name particles by number.
+ * Errors: GB_ERR_MEMORY. */
+bool gb_bed_list_renumber(struct gb_bed *bed, struct gb_error *err);
+
 bool gb_bed_list_init(struct gb_bed_list *list, int64_t particles, int64_t room,
                       struct gb_error *err);
 void gb_bed_list_finish(struct gb_bed_list *list);
@@ -16,14 +22,6 @@ bool gb_bed_list_make_rows(struct gb_bed *bed, struct gb_error *err);
 
 /* Draws the list of pairs anew from the candidates. */
 bool gb_bed_list_draw(struct gb_bed *bed, struct gb_error *err);
-
-/* Gives the contacts of `to` the histories that `from` holds for the same pairs. */
-void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
-                          int64_t particles);
-
-/* Gives a contact the history of another one. */
-void gb_bed_list_copy_slot(struct gb_bed_contacts *to, int64_t slot,
-                           const struct gb_bed_contacts *from, int64_t old);
 
 /* Fills in `start` of a list whose contacts are sorted. */
 void gb_bed_list_start(struct gb_bed_list *list, int64_t particles);

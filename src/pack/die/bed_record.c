@@ -1,16 +1,145 @@
+/* The state of a bed outside of it: copies in memory, a hash, and records of checkpoints.
+ *
+ * A copy restores the bed after a measure that disturbs it.  A record goes to a file; it holds
+ * what later steps depend on (positions, velocities, histories, die, welds).  Lists are left
+ * out, since no force depends on them. */
+
 #include "pack/die/bed_record.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-#include <gsl/gsl_sort.h>
-
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "pack/cell/record_checks.h"
+#include "pack/die/bed.h"
 #include "pack/die/bed_list.h"
 #include "pack/die/bed_welds.h"
+
+/* ---- Copy ---- */
+
+struct gb_bed_copy {
+    int64_t count;
+    gb_bed_row *rows; /* positions, velocities, spins */
+    struct gb_die die;
+    struct gb_bed_list pairs, walls; /* what touches */
+    struct gb_bed_welds *welds;
+    double skin;
+};
+
+enum { ROW_KINDS = 3 };
+
+static bool make_copy(struct gb_bed_copy **out, int64_t count, struct gb_error *err)
+{
+    struct gb_bed_copy *copy = gb_alloc_array(1, sizeof *copy, err);
+    if (!copy) {
+        return false;
+    }
+    copy->count = count;
+    copy->rows = gb_alloc_array(ROW_KINDS * (size_t)count, sizeof *copy->rows, err);
+    if (!copy->rows) {
+        gb_bed_record_destroy(copy);
+        return false;
+    }
+    *out = copy;
+    return true;
+}
+
+void gb_bed_record_destroy(struct gb_bed_copy *copy)
+{
+    if (!copy) {
+        return;
+    }
+    gb_alloc_free(copy->rows);
+    gb_bed_list_finish(&copy->pairs);
+    gb_bed_list_finish(&copy->walls);
+    gb_bed_welds_destroy(copy->welds);
+    gb_alloc_free(copy);
+}
+
+bool gb_bed_record_take(const struct gb_bed *bed, struct gb_bed_copy **copy,
+                        struct gb_error *err)
+{
+    if (!*copy && !make_copy(copy, bed->count, err)) {
+        return false;
+    }
+    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->roll};
+    for (int k = 0; k < ROW_KINDS; k++) {
+        memcpy((*copy)->rows + k * bed->count, rows[k],
+               (size_t)bed->count * sizeof *rows[k]);
+    }
+    (*copy)->die = bed->die;
+    (*copy)->skin = bed->skin;
+    return gb_bed_list_copy_touching(&(*copy)->pairs, &bed->pairs, bed->count, err) &&
+           gb_bed_list_copy_touching(&(*copy)->walls, &bed->walls, bed->count, err) &&
+           gb_bed_welds_copy(&(*copy)->welds, bed->welds, err);
+}
+
+bool gb_bed_record_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
+                           struct gb_error *err)
+{
+    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->roll};
+    for (int k = 0; k < ROW_KINDS; k++) {
+        memcpy(rows[k], copy->rows + k * bed->count,
+               (size_t)bed->count * sizeof *rows[k]);
+    }
+    bed->die = copy->die;
+    bed->skin = copy->skin;
+    gb_bed_weigh(bed);   /* numbers may have changed */
+    bed->listed = false; /* rebuilt at the next evaluation, from these: */
+    return gb_bed_list_copy_touching(&bed->pairs, &copy->pairs, bed->count, err) &&
+           gb_bed_list_copy_touching(&bed->walls, &copy->walls, bed->count, err) &&
+           gb_bed_welds_copy(&bed->welds, copy->welds, err);
+}
+
+/* ---- Hash ---- */
+
+static uint64_t mix_list(uint64_t hash, const struct gb_bed_list *list)
+{
+    const struct gb_bed_contacts *c = &list->contacts;
+    for (int64_t slot = 0; slot < list->count; slot++) {
+        if (c->normal[slot] < 0.0) {
+            continue;
+        }
+        const double history[] = {c->deepest[slot], c->shear[0][slot], c->shear[1][slot],
+                                  c->shear[2][slot]};
+        hash = gb_record_fnv(hash, &list->first[slot], sizeof list->first[slot]);
+        hash = gb_record_fnv(hash, &list->other[slot], sizeof list->other[slot]);
+        hash = gb_record_fnv(hash, history, sizeof history);
+    }
+    return hash;
+}
+
+static uint64_t mix_welds(uint64_t hash, const struct gb_bed_welds *welds)
+{
+    for (int64_t k = 0; welds && k < welds->count; k++) {
+        const double state[] = {welds->length[k], welds->radius[k], welds->force[0][k],
+                                welds->force[1][k], welds->force[2][k]};
+        hash = gb_record_fnv(hash, &welds->first[k], sizeof welds->first[k]);
+        hash = gb_record_fnv(hash, &welds->other[k], sizeof welds->other[k]);
+        hash = gb_record_fnv(hash, state, sizeof state);
+    }
+    return hash;
+}
+
+uint64_t gb_bed_record_hash(const struct gb_bed *bed)
+{
+    const size_t bytes = (size_t)bed->count * sizeof(gb_bed_row);
+    uint64_t hash = GB_RECORD_FNV;
+    hash = gb_record_fnv(hash, bed->position, bytes);
+    hash = gb_record_fnv(hash, bed->velocity, bytes);
+    hash = gb_record_fnv(hash, bed->roll, bytes);
+    hash = gb_record_fnv(hash, &bed->die.punch_position, sizeof bed->die.punch_position);
+    hash = gb_record_fnv(hash, &bed->die.punch_velocity, sizeof bed->die.punch_velocity);
+    if (bed->die.bore != GB_DIE_BORE_ENDLESS) {
+        hash = gb_record_fnv(hash, &bed->die.top, sizeof bed->die.top);
+    }
+    return mix_welds(mix_list(mix_list(hash, &bed->pairs), &bed->walls), bed->welds);
+}
+
+/* ---- Record ---- */
 
 #define AT(member) offsetof(struct gb_bed, member)
 

@@ -5,11 +5,10 @@
 
 #include "base/team/team.h"
 #include "pack/cell/engine.h"
-#include "pack/f32/f32_convert.h"
+#include "pack/f32/f32_state.h"
 #include "pack/kernel/sweep_f32.h"
 #include "pack/kernel/sweep_f64.h"
 #include "pack/list/blocks.h"
-#include "pack/list/engine_blocks.h"
 #include "pack/list/list_check.h"
 
 static void sweep_block(struct gb_engine *engine, int64_t b)
@@ -48,7 +47,7 @@ static void prepare_block(void *data, int64_t b)
     const int64_t count = engine->particles.count;
     gb_list_check_measure(engine, b);
     if (gb_engine_is_f32(engine)) {
-        gb_f32_convert_particles(engine, gb_blocks_begin(count, b),
+        gb_f32_state_particles(engine, gb_blocks_begin(count, b),
                                  gb_blocks_end(count, b));
     }
 }
@@ -87,8 +86,8 @@ static void run_blocks(struct gb_engine *engine, int64_t blocks,
             collect_block(engine, b, along);
         }
     } else {
-        gb_engine_blocks_run(engine, sweep_item, &sweep);
-        gb_engine_blocks_run(engine, collect_item, &sweep);
+        gb_blocks_run(engine, sweep_item, &sweep);
+        gb_blocks_run(engine, collect_item, &sweep);
     }
 }
 
@@ -125,8 +124,8 @@ static bool sweep(struct gb_engine *engine, struct gb_sweep_along along)
         engine->f32.scale[c] = (float)gb_fixed_position_unit(&engine->particles.cell, c);
     }
     if (!gb_engine_state_moved(&engine->state)) {
-        gb_f32_convert_synchronise(engine);
-        gb_engine_blocks_run(engine, prepare_block, engine);
+        gb_f32_state_synchronise(engine);
+        gb_blocks_run(engine, prepare_block, engine);
     } /* else the velocity update did it */
     if (!gb_list_check_run(engine)) {
         return false;

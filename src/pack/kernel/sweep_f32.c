@@ -270,7 +270,7 @@ GB_SIMD_LOOP void collect_loop(struct gb_engine *engine, int64_t begin, int64_t 
         memcpy(&velocity, f32->velocity[j], sizeof velocity);
         power += sum * velocity;
     }
-    gb_wrench_rows_clear(&f32->rows, begin, end);
+    gb_f32_state_clear_rows(&f32->rows, begin, end);
     *sums = (struct gb_force_sums){0};
     for (int c = 0; c < 3; c++) {
         sums->force2 += (double)squares[c];

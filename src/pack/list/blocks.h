@@ -3,6 +3,10 @@
 
 #include <stdint.h>
 
+#include "base/team/team.h"
+
+struct gb_engine;
+
 /* Blocks of consecutive particles.  Tallies, and in single precision the forces of pairs
  * inside a block, are summed block by block.  The partition follows from the number of
  * particles alone, so the order of the sums, and with it every bit, does not depend on
@@ -11,7 +15,7 @@
  * then 64 in all before their size doubles. */
 enum { GB_BLOCKS_SIZE = 512, GB_BLOCKS_SIZE_MAX = 8192, GB_BLOCKS_SHARED = 64 };
 
-/* Particles that are worth a thread of their own, in work of which every particle is by itself. */
+/* Fewest particles that are worth a thread, in work on independent particles. */
 enum { GB_BLOCKS_GRAIN = 64 };
 
 /* Particles in a block, of `count` in all. */
@@ -41,5 +45,14 @@ static inline int64_t gb_blocks_end(int64_t count, int64_t b)
     const int64_t end = gb_blocks_begin(count, b + 1);
     return end < count ? end : count;
 }
+
+/* After a build of the lists: notes what a sweep of each block costs, by its pairs. */
+void gb_blocks_weigh(struct gb_engine *engine);
+
+/* work(data, b) for every block of particles.  A thread begins with the same consecutive
+ * blocks in every phase of a step, so that they stay in its caches.  It gets as many as cost
+ * its share of a sweep: a pair belongs to its first particle, so that the first blocks have
+ * more of them. */
+void gb_blocks_run(struct gb_engine *engine, gb_team_item *work, void *data);
 
 #endif

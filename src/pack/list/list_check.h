@@ -4,19 +4,34 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pack/list/missing_pairs.h"
-
 struct gb_engine;
 
-/* The list check.  While no particle has moved farther than the margin (about half the
- * skin) since the build, the lists hold every pair.  Of thousands of particles a few,
- * without load, move much farther than the others and would force a rebuild alone.
- * These escaped particles are checked one by one: the lists are valid as long as they
- * hold the pairs of the escaped particles. */
+/* A pair that the list it belongs to does not hold: first < other. */
+struct gb_missing_pair {
+    int32_t first, other;
+    bool near; /* belongs to `near`, else to `far` */
+};
+
+/* Result of the list check for one block of particles. */
+enum { GB_MISSING_PAIRS_MAX = 16 };
+
+struct gb_missing_pairs {
+    bool incomplete;    /* more pairs may be missing: no room left, or too many particles
+                         * escaped to check them one by one */
+    int escaped, count; /* escaped particles; missing pairs */
+    struct gb_missing_pair pair[GB_MISSING_PAIRS_MAX];
+};
+
+/* State of the list check for one block. */
+struct gb_list_check_block {
+    double displacement; /* largest since the list was built, d; may be overestimated
+                          * below the margin; NaN: a coordinate is not finite */
+    struct gb_missing_pairs missing;
+};
 
 enum gb_list_check_verdict {
     GB_LIST_CHECK_VALID,     /* no particle escaped */
-    GB_LIST_CHECK_UNCERTAIN, /* valid if gb_list_check_find finds no missing pair */
+    GB_LIST_CHECK_UNCERTAIN, /* valid if no pair of the escaped particles is missing */
     GB_LIST_CHECK_INVALID,
 };
 
@@ -27,11 +42,6 @@ enum gb_list_check_verdict gb_list_check_judge(const struct gb_engine *engine,
 
 /* Displacement (d) from which on a particle counts as escaped. */
 double gb_list_check_margin(const struct gb_engine *engine);
-
-/* Pairs of the escaped particles among begin .. end - 1 that are not in the list they
- * belong to. */
-void gb_list_check_find(const struct gb_engine *engine, int64_t begin, int64_t end,
-                        struct gb_missing_pairs *missing);
 
 /* True if checking the escaped particles costs more than a new list. */
 bool gb_list_check_too_many(int64_t escaped, int64_t particles);

@@ -9,9 +9,6 @@
 
 struct gb_engine;
 
-/* Insertion of missing pairs into valid lists.  Of a million particles there is always one
- * that meets a partner it was far from, and a rebuild costs as much as several sweeps. */
-
 enum gb_list_patch_outcome {
     GB_LIST_PATCH_DONE,    /* the lists are complete */
     GB_LIST_PATCH_REBUILD, /* nothing was done: too many pairs are missing, or it is not

@@ -5,7 +5,22 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/list/neighbour_grid.h"
+#include "pack/cell/cell.h"
+
+struct gb_list_levels;
+struct gb_team;
+
+/* Bins at least as wide as the reach of a neighbour list.  A build sorts the particles
+ * into them, and list_check.c looks them up again. */
+struct gb_neighbour_grid {
+    int n[3];        /* bins along each axis */
+    int span_low[3]; /* neighbouring bins to visit: span_low .. span_high */
+    int span_high[3];
+    double inverse[3];   /* one over the width of a bin, 1/d */
+    bool tilted;         /* then, instead: */
+    double to_bin[3][3]; /* bins along each edge vector from x, 1/d */
+    bool plain;          /* the periodic image of a pair follows from its bins */
+};
 
 /* How the pairs of a particle are found from its second partner. */
 enum gb_neighbour_list_layout {
@@ -13,8 +28,6 @@ enum gb_neighbour_list_layout {
     GB_NEIGHBOUR_LIST_PATCHABLE,  /* not at all; every block of particles ends with free
                                    * slots for later insertions; single precision */
 };
-
-struct gb_list_levels;
 
 /* One of the two lists: pairs (i, other[k]) with i < other[k] for k in
  * [start[i], start[i+1]), sorted by other within i. */
@@ -30,7 +43,7 @@ struct gb_pair_list {
     int32_t *first; /* i of each pair */
     int32_t *other; /* j of each pair */
     uint8_t *image; /* periodic image of j; index of gb_neighbour_list.shift */
-    int32_t *row; /* patchable: row that sums the forces on j (pack/f32/wrench_rows.h) */
+    int32_t *row; /* patchable: row that sums the forces on j (pack/f32/f32_state.h) */
     int64_t
         *in_start;    /* transposed: particles + 1: pairs with j as second particle ... */
     int32_t *in_slot; /* ... as indices k, ascending */
@@ -82,25 +95,37 @@ static inline int64_t gb_neighbour_list_slots(const struct gb_neighbour_list *li
     return pairs->start[list->count];
 }
 
-/* Room for `need` pairs; the contents are lost when it grows. */
-bool gb_neighbour_list_reserve(struct gb_neighbour_list *list, struct gb_pair_list *pairs,
-                               int64_t need, struct gb_error *err);
-
-/* Free slots behind every block of a patchable list. */
-int64_t gb_neighbour_list_free_slots(const struct gb_neighbour_list *list);
-
 /* Marks a slot of the block that ends with particle i as free. */
 void gb_neighbour_list_free_slot(struct gb_pair_list *pairs, int64_t slot, int64_t i);
+
+/* Neighbours that one particle may have within the reach in bins: a dense packing of like
+ * sizes has about a dozen. */
+enum { GB_NEIGHBOUR_LIST_SCAN_MAX = 256 };
+
+/* Range of the lists, beyond a diameter of 1. */
+struct gb_neighbour_list_range {
+    double cutoff; /* of the attraction, d */
+    double skin;   /* d */
+};
+
+/* Builds both lists for positions inside the cell, out to cutoff + skin, and sets `shift`.
+ *
+ * team   threads that share the work; NULL: the caller.  The lists are the same.
+ * Errors: GB_ERR_MEMORY; GB_ERR_GUARD when the cell is too small for the reach or a particle has
+ * too many neighbours. */
+bool gb_neighbour_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
+                             const double *position, struct gb_neighbour_list_range range,
+                             struct gb_team *team, struct gb_error *err);
 
 /* Lists without a pair: the safe state after a failed build. */
 void gb_neighbour_list_clear(struct gb_neighbour_list *list);
 
-/* Largest displacement of particles begin .. end - 1 since the build, beside the affine
+/* Largest displacement of particles begin .. end - 1 since the build, in excess of the affine
  * motion, d; NaN when a coordinate is not finite. */
 double gb_neighbour_list_displacement(const struct gb_neighbour_list *list,
                                       const double *position, int64_t begin, int64_t end);
 
-/* Squared displacement of particle i at x since the build, beside the affine motion, d^2;
+/* Squared displacement of particle i at x since the build, in excess of the affine motion, d^2;
  * after any deformation of the cell (gb_cell_tilted of `unit`). */
 double gb_neighbour_list_displacement2_tilted(const struct gb_neighbour_list *list,
                                               int64_t i, const double x[3]);
@@ -121,6 +146,16 @@ gb_neighbour_list_displacement2_scaled(const struct gb_neighbour_list *list, int
 /* The cell and all positions were deformed. */
 void gb_neighbour_list_deform(struct gb_neighbour_list *list,
                               const struct gb_deformation *deformation);
+
+/* Bin of a position inside the cell, along each axis. */
+void gb_neighbour_list_bin(const struct gb_neighbour_grid *grid, const double x[3],
+                           int bin[3]);
+
+static inline int gb_neighbour_list_bin_index(const struct gb_neighbour_grid *grid,
+                                              const int bin[3])
+{
+    return (bin[2] * grid->n[1] + bin[1]) * grid->n[0] + bin[0];
+}
 
 /* Sets `shift` for the edge vectors of a cell. */
 void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,

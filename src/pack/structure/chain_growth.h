@@ -1,15 +1,16 @@
 #ifndef GB_PACK_STRUCTURE_CHAIN_GROWTH_H
 #define GB_PACK_STRUCTURE_CHAIN_GROWTH_H
 
+#include <gsl/gsl_rng.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "greenbody/status.h"
 #include "pack/cell/cell.h"
+#include "pack/structure/grid.h"
 #include "scene/model.h"
 
-/* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected.
- */
+/* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected. */
 struct gb_chain_growth {
     int dimension;
     int64_t count;
@@ -37,5 +38,55 @@ struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model);
  * Deterministic: same struct, same bits.  Cost about linear in count. */
 bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
                          struct gb_error *err);
+
+/* ---- For tests: one ray at a time ---- */
+
+/* Centres closer than (1 - GB_ROLL_TOLERANCE) r_eq overlap.  Above the rounding of a
+ * position on two spheres, so that the hexagons of 2D can close; below any distance that
+ * matters. */
+#define GB_ROLL_TOLERANCE 1e-9
+
+/* A new particle and the existing ones, with its distances of contact. */
+struct gb_roll {
+    const struct gb_grid *grid;
+    double r_eq; /* the distance; of unequal sizes: the longest */
+    /* unequal sizes: */
+    const struct gb_model *model;
+    const double *diameter; /* of all, d; NULL: all are equal */
+    double own;             /* of the new one */
+};
+
+/* Distance of the new particle to particle j in contact. */
+double gb_chain_growth_contact_distance(const struct gb_roll *roll, int64_t j);
+
+/* Spheres of diameter r_eq whose centres lie within r_eq of a ray of n r_eq fill at most
+ * the cylinder of radius 1.5 r_eq and length (n + 1) r_eq: 13.5 (n + 1) of them; discs
+ * fill at most the strip, 3.9 (n + 1). */
+enum { GB_CHAIN_RAY_CANDIDATES = 824 };
+
+/* A position on the ray that touches particle j. */
+struct gb_chain_ray_candidate {
+    int64_t j;
+    double along;     /* of the position, from the origin of the ray */
+    double offset[3]; /* from j to the position; as long as they touch */
+    double touch;     /* that distance */
+    double foot;      /* of j on the ray, from its origin */
+    double across;    /* square of the distance of j from the ray */
+    int least;        /* neighbours that are known of; INT32_MAX: overlaps, or tried */
+};
+
+/* State of a growing structure. */
+struct gb_chain_ray {
+    const struct gb_chain_growth *grow;
+    struct gb_grid *grid;
+    double *diameter; /* d; NULL: all are equal */
+    gsl_rng rng;
+    struct gb_chain_ray_candidate *candidates;
+    int room; /* for candidates */
+    int64_t rays;
+};
+
+/* One random ray from particle `origin`; inserts a particle where a candidate is free. */
+bool gb_chain_growth_try(struct gb_chain_ray *growth, int64_t origin);
 
 #endif

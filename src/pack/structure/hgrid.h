@@ -22,12 +22,12 @@ struct gb_hgrid_box {
     bool periodic[3];
 };
 
-/* Rows of the sorted spheres: x, y, z, wrapped into the box, and reach; and how far behind the
+/* Rows of the sorted spheres: x, y, z, wrapped into the box, and reach; and how far beyond the
  * last sphere they are read. */
 enum { GB_HGRID_REACH = 3, GB_HGRID_ROWS = 4, GB_HGRID_SLACK = 4 };
 
 /* The pairs: (i, other[k]) with i < other[k] for k in [start[i], start[i + 1]),
- * ascending.  The other members are scratch of hgrid*.c. */
+ * ascending.  The other members are scratch of hgrid.c. */
 struct gb_hgrid {
     int64_t pair_count;
     int64_t *start; /* capacity + 1 */

@@ -84,8 +84,8 @@ bool gb_hilbert_sort(const struct gb_model *model, double *position, struct gb_e
     double *sorted = gb_alloc_array(3 * n, sizeof *sorted, err);
     const bool room = order && sorted;
     for (int64_t i = 0; room && i < count; i++) {
-        order[i] = (struct gb_hilbert_entry){
-            key_of(position + 3 * i, dimension, longest), i};
+        order[i] =
+            (struct gb_hilbert_entry){key_of(position + 3 * i, dimension, longest), i};
     }
     if (room) {
         gb_hilbert_order(order, count);

@@ -13,7 +13,7 @@
  * cancelled   polled with data during growth; NULL is fine
  * Errors: of gb_chain_growth_run. */
 bool gb_initial_structure_fill(const struct gb_model *model,
-                                bool (*cancelled)(void *data), void *data,
-                                double *position, struct gb_error *err);
+                               bool (*cancelled)(void *data), void *data,
+                               double *position, struct gb_error *err);
 
 #endif

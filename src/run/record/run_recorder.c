@@ -1,20 +1,114 @@
 #include "run/record/run_recorder.h"
+
+#include <glib.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <glib.h>
-
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "hdf/hdf_record.h"
 #include "io/follow.h"
 #include "io/rundir_files.h"
 #include "io/state/state_record.h"
 #include "run/checkpoint.h"
-#include "run/record/held_record.h"
+#include "run/experiment.h"
 #include "run/record/kept_states.h"
 #include "run/record/live_export.h"
 #include "run/record/run_journal.h"
 #include "run/record/writer.h"
+#include "run/repeat_points.h"
+
+/* The record of the last point of a run: the writer's.  Taking it costs as much as some
+ * evaluations, so it is taken at some of the points only, not while it is being written, and
+ * computed up to the last one when it is needed. */
+struct held_record {
+    const struct gb_params *params;
+    struct gb_writer *writer;
+    struct gb_run_journal journal; /* as of the last point */
+    bool fresh;                    /* there is a record that is newer than state.h5 */
+    int64_t missing; /* gb_checkpoint_step of the last point; -1: it has the record */
+    double taken_s, cost_s; /* clock at the last record, and how long it took */
+};
+
+/* How much computing may have to be repeated, s: so long that records cost a twentieth of
+ * the time, within these limits. */
+static const double age_least_s = 0.1, age_most_s = 10.0, cost_share = 0.05;
+
+/* params and writer must outlive it. */
+static void held_record_init(struct held_record *held, const struct gb_params *params,
+                             struct gb_writer *writer)
+{
+    *held = (struct held_record){.params = params, .writer = writer, .missing = -1};
+}
+
+/* True where the last point needs a record of its own: there is none since the last
+ * checkpoint, or it would soon be too old, or the run is over.  Not while a checkpoint is
+ * written: the points of that time are computed from it. */
+static bool held_record_due(const struct held_record *held,
+                            const struct gb_experiment *experiment)
+{
+    const double allowed_s =
+        fmin(fmax(held->cost_s / cost_share, age_least_s), age_most_s);
+    const double age_s = gb_clock_s() - held->taken_s; /* negative: the clock went back */
+    return gb_experiment_over(experiment) ||
+           ((!held->fresh || age_s < 0.0 || age_s >= allowed_s) &&
+            !gb_writer_busy(held->writer));
+}
+
+/* Right after a point: takes its record, without the journal, as soon as the last one is
+ * written; or goes without. */
+static bool held_record_take(struct held_record *held, struct gb_experiment *experiment,
+                             struct gb_error *err)
+{
+    if (!gb_writer_wait(held->writer, err)) {
+        return false;
+    }
+    const double from_s = gb_clock_s();
+    const bool good = gb_checkpoint_take(experiment, gb_writer_record(held->writer), err);
+    held->taken_s = gb_clock_s();
+    held->cost_s = held->taken_s - from_s;
+    return good;
+}
+
+static void held_record_skip(struct held_record *held, const struct gb_point *point)
+{
+    held->missing = point->step + 1;
+}
+
+/* Adds the journal to the record of the last point, which is complete then. */
+static bool held_record_complete(struct held_record *held, struct gb_error *err)
+{
+    held->fresh =
+        gb_run_journal_record(&held->journal, gb_writer_record(held->writer), err);
+    held->missing = -1;
+    return held->fresh;
+}
+
+/* Computes the record up to the last point; the bits are those of a record taken there.
+ * Nothing is done while it is written.  Where the run cannot be repeated, the record stays:
+ * a checkpoint some points before.
+ * Errors: GB_ERR_MEMORY. */
+static bool held_record_catch_up(struct held_record *held, struct gb_error *err)
+{
+    struct gb_record *record = gb_writer_record(held->writer);
+    struct gb_error why = {0};
+    if (held->missing < 0 || gb_writer_busy(held->writer)) {
+        return true;
+    }
+    if (gb_repeat_points_record(record, held->params, held->missing, &why)) {
+        return held_record_complete(held, err);
+    }
+    held->missing = -1;
+    held->fresh = held->fresh && record->count > 0;
+    return why.code != GB_ERR_MEMORY || gb_error_set(err, why.code, "%s", why.text);
+}
+
+/* A record to be written: fresh, and of the last point. */
+static bool held_record_ready(const struct held_record *held)
+{
+    return held->fresh && held->missing < 0;
+}
 
 struct gb_run_recorder {
     struct gb_params params;
@@ -24,7 +118,7 @@ struct gb_run_recorder {
     struct gb_kept_states states;
     struct gb_live_export live;
     struct gb_run_journal journal; /* events and seconds as they grow */
-    struct gb_held_record held;
+    struct held_record held;
     double written_at; /* seconds of the run at the last checkpoint */
     int not_kept;      /* states of rows without a state, until an event names them */
 };
@@ -54,7 +148,7 @@ static bool start_writer(struct gb_run_recorder *recorder, struct gb_error *err)
                           &recorder->model, err)) {
         return false;
     }
-    gb_held_record_init(&recorder->held, &recorder->params, recorder->writer);
+    held_record_init(&recorder->held, &recorder->params, recorder->writer);
     return true;
 }
 
@@ -290,7 +384,7 @@ static bool keep(struct gb_run_recorder *recorder, const struct gb_point *point,
     }
     gb_live_export_frame(&recorder->live, dir->held, *state);
     note_point(recorder, point->seconds);
-    if (!gb_held_record_complete(&recorder->held, err) ||
+    if (!held_record_complete(&recorder->held, err) ||
         !gb_rundir_result(
             dir, gb_kept_states_write(dir->held, names, *state, record, err), err)) {
         return false;
@@ -305,11 +399,11 @@ static bool record_state(struct gb_run_recorder *recorder,
                          const struct gb_kept_names *names, struct gb_error *err)
 {
     struct gb_state *state = NULL;
-    if (!gb_held_record_take(&recorder->held, experiment, err)) {
+    if (!held_record_take(&recorder->held, experiment, err)) {
         return false;
     }
     if (names->count == 0) {
-        return gb_held_record_complete(&recorder->held, err);
+        return held_record_complete(&recorder->held, err);
     }
     const bool good = keep(recorder, point, names, &state, err);
     gb_state_destroy(state);
@@ -333,10 +427,10 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
     note_point(recorder, point->seconds);
     const bool free = !gb_writer_busy(recorder->writer);
     if (names.count > 0 || (free && checkpoint_due(recorder, point->seconds)) ||
-        gb_held_record_due(&recorder->held, experiment)) {
+        held_record_due(&recorder->held, experiment)) {
         return record_state(recorder, experiment, point, &names, err);
     }
-    gb_held_record_skip(&recorder->held, point);
+    held_record_skip(&recorder->held, point);
     return true;
 }
 
@@ -365,11 +459,11 @@ bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
                           enum gb_run_recorder_when when, struct gb_error *err)
 {
     const bool now = when == GB_RUN_RECORDER_NOW;
-    if (now && !gb_held_record_catch_up(&recorder->held, err)) {
+    if (now && !held_record_catch_up(&recorder->held, err)) {
         return false;
     }
     /* a due checkpoint waits for a point, which will have a record */
-    if (!gb_held_record_ready(&recorder->held) ||
+    if (!held_record_ready(&recorder->held) ||
         !(now || checkpoint_due(recorder, seconds))) {
         return true;
     }

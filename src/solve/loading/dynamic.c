@@ -1,16 +1,197 @@
+/* High-speed pressing of P2: a particle system with inertia is relaxed, compressed at a rate and
+ * held.  Time steps of gb_verlet lead from one recorded point to the next.
+ *
+ * A guard watches the fraction of sliding contacts.  If too many slide, or the critical step is
+ * exceeded, the motion goes back to the last recorded point and halves the step. */
+
 #include "solve/loading/dynamic.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/portable.h"
-#include "pack/cell/world_measure.h"
+#include "law/critical_step.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 #include "solve/loading/compressed_axes.h"
-#include "solve/loading/dynamic_guard.h"
-#include "solve/loading/dynamic_step.h"
+#include "solve/verlet.h"
+
+/* ---- Time step ---- */
+
+/* The viscous force of a mode is xi = A omega / 2 of the critical damping. */
+static double critical_step(const struct gb_dynamic *motion, double frequency)
+{
+    return gb_critical_step(frequency, 0.5 * motion->model->dynamics.viscous * frequency);
+}
+
+/* The given step, or a fraction of the critical one as soon as the given one exceeds it. */
+static double bound_given(struct gb_dynamic *motion, double critical, char *text,
+                          size_t size)
+{
+    const double step = fmin(motion->model->dynamics.time_step, motion->limit);
+    if (step <= critical) {
+        return step;
+    }
+    motion->limit = GB_STEP_CRITICAL_FRACTION * critical;
+    snprintf(text, size,
+             "guard: time step %.3g T above the critical %.3g T: %.3g T is taken", step,
+             critical, motion->limit);
+    return motion->limit;
+}
+
+/* Step at which velocity Verlet has the error unit (omega step)^2 that is allowed. */
+static double accurate_step(const struct gb_dynamic *motion, double frequency,
+                            double unit)
+{
+    const double share = sqrt(motion->model->dynamics.step_error / unit);
+    return share / fmax(frequency, GB_FREQUENCY_MIN);
+}
+
+/* The step that strains the cell as much as the work of pressing allows. */
+static double straining_step(const struct gb_dynamic *motion)
+{
+    return GB_STEP_STRAIN_MAX / motion->model->dynamics.rate;
+}
+
+/* The automatic step, of accuracy or of stability.  Strong damping bounds it more. */
+static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
+                        char *text, size_t size)
+{
+    const bool loading = motion->stage == GB_DYNAMIC_LOAD;
+    const double loaded = accurate_step(motion, frequency, GB_STEP_ERROR_UNIT);
+    const double accurate =
+        loading ? fmin(loaded, straining_step(motion))
+                : accurate_step(motion, frequency, GB_STEP_ERROR_UNIT_FREE);
+    const double stable = GB_STEP_CRITICAL_FRACTION * critical;
+    if (stable < 0.5 * loaded && !motion->limit_reported) {
+        motion->limit_reported = true;
+        snprintf(
+            text, size,
+            "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
+            "%.3g T)",
+            stable, loaded);
+    }
+    const double crossing = GB_FREE_STEP_MAX * motion->model->diameter_min;
+    return fmin(fmin(fmin(accurate, stable), crossing), motion->limit);
+}
+
+double gb_dynamic_step_allowed(struct gb_dynamic *motion, const struct gb_world *world,
+                               char *text, size_t size)
+{
+    const double frequency = gb_verlet_frequency(world, motion->scratch);
+    const double critical = critical_step(motion, frequency);
+    return motion->model->dynamics.time_step > 0.0
+               ? bound_given(motion, critical, text, size)
+               : pick_step(motion, frequency, critical, text, size);
+}
+
+/* ---- Guard ---- */
+
+/* The present state is the one to go back to.  Errors: GB_ERR_MEMORY. */
+static bool dynamic_guard_save(struct gb_dynamic *motion, const struct gb_world *world,
+                               struct gb_error *err)
+{
+    const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
+    memcpy(motion->good_velocity, motion->verlet.velocity, bytes);
+    memcpy(motion->good_spin, motion->verlet.spin, bytes);
+    motion->good_time = motion->time;
+    motion->good_density = motion->density;
+    motion->good_work = motion->verlet.work;
+    motion->good_absorbed = motion->verlet.absorbed;
+    motion->good_stage = motion->stage;
+    return gb_world_copy_save(world, &motion->good, err);
+}
+
+/* Back to the last recorded point. */
+static bool restore_good(struct gb_dynamic *motion, struct gb_world *world,
+                         struct gb_error *err)
+{
+    const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
+    memcpy(motion->verlet.velocity, motion->good_velocity, bytes);
+    memcpy(motion->verlet.spin, motion->good_spin, bytes);
+    motion->time = motion->good_time;
+    motion->density = motion->good_density;
+    motion->verlet.work = motion->good_work;
+    motion->verlet.absorbed = motion->good_absorbed;
+    motion->stage = motion->good_stage;
+    motion->left = 0;
+    return gb_world_copy_restore(world, motion->good, err) &&
+           gb_world_evaluate(world, err);
+}
+
+/* Back to the saved state with half the time step: MORE, with a line in text (size
+ * bytes) that begins with the reason `why`; STOPPED after GB_STEP_HALVINGS_MAX
+ * halvings. */
+static enum gb_step_outcome dynamic_guard_halve(struct gb_dynamic *motion,
+                                                struct gb_world *world, const char *why,
+                                                char *text, size_t size,
+                                                struct gb_error *err)
+{
+    motion->limit = 0.5 * motion->step;
+    if (!restore_good(motion, world, err)) {
+        return GB_STEP_STOPPED;
+    }
+    if (++motion->halvings > GB_STEP_HALVINGS_MAX) {
+        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g T", why,
+                     motion->step);
+        return GB_STEP_STOPPED;
+    }
+    snprintf(text, size, "guard: %s; time step halved to %.3g T", why, motion->limit);
+    return GB_STEP_MORE;
+}
+
+/* Share of the contacts that slid since the last point. */
+static double sliding_share(const struct gb_dynamic *motion)
+{
+    return motion->contacts > 0 ? (double)motion->sliding / (double)motion->contacts
+                                : 0.0;
+}
+
+/* Half the step changed nothing: friction is the cause, and the step is restored. */
+static void restore_step(struct gb_dynamic *motion, double share, char *text, size_t size)
+{
+    motion->sliding_most = 0.5 * (1.0 + share);
+    motion->limit = motion->limit_before;
+    motion->slid = 0.0;
+    motion->halvings--;
+    snprintf(text, size,
+             "guard: %.0f %% of the contacts slide with half the time step as well; the "
+             "step is not the cause and is taken as before",
+             100.0 * share);
+}
+
+/* At the end of the steps to a point: POINT, or as of dynamic_guard_halve when more
+ * contacts slid than the time step explains. */
+/* Friction caps hide an unstable step from the kinetic energy; the sliding contacts show
+ * it.  Many contacts may also slide at any step: half the step decides. */
+static enum gb_step_outcome dynamic_guard_judge(struct gb_dynamic *motion,
+                                                struct gb_world *world, char *text,
+                                                size_t size, struct gb_error *err)
+{
+    const double share = sliding_share(motion);
+    if (motion->slid > 0.0 && share > GB_SLIDING_RATIO_UNCHANGED * motion->slid) {
+        restore_step(motion, share, text, size);
+        return GB_STEP_POINT;
+    }
+    if (share > motion->sliding_most) {
+        char why[96];
+        snprintf(why, sizeof why, "%.0f %% of the contacts slide", 100.0 * share);
+        if (motion->slid == 0.0) {
+            motion->limit_before = motion->limit;
+        }
+        motion->slid = share;
+        return dynamic_guard_halve(motion, world, why, text, size, err);
+    }
+    motion->slid = 0.0;
+    return GB_STEP_POINT;
+}
+
+/* ---- Motion ---- */
 
 bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
                        struct gb_error *err)
@@ -24,7 +205,7 @@ bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
     motion->model = model;
     motion->limit = INFINITY;
     motion->sliding_most = GB_SLIDING_FRACTION_MAX;
-    motion->density = gb_world_measure_density(world);
+    motion->density = gb_world_density(world);
     motion->stage = motion->recorded = GB_DYNAMIC_RELAX;
     motion->stage_end = model->dynamics.relax;
     motion->good_velocity = gb_alloc_array(n, sizeof *motion->good_velocity, err);
@@ -108,7 +289,7 @@ static enum gb_step_outcome begin(struct gb_dynamic *motion, struct gb_world *wo
     if (motion->stage == GB_DYNAMIC_OVER) {
         return GB_STEP_DONE;
     }
-    if (!gb_dynamic_guard_save(motion, world, err)) {
+    if (!dynamic_guard_save(motion, world, err)) {
         return GB_STEP_STOPPED;
     }
     plan(motion, gb_dynamic_step_allowed(motion, world, text, size));
@@ -131,7 +312,7 @@ enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_wor
             char why[sizeof err->text];
             snprintf(why, sizeof why, "%s", err->text);
             return err->code == GB_ERR_GUARD
-                       ? gb_dynamic_guard_halve(motion, world, why, text, size, err)
+                       ? dynamic_guard_halve(motion, world, why, text, size, err)
                        : GB_STEP_STOPPED;
         }
         motion->time += motion->step;
@@ -143,7 +324,7 @@ enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_wor
         return GB_STEP_MORE;
     }
     motion->recorded = motion->stage;
-    return gb_dynamic_guard_judge(motion, world, text, size, err);
+    return dynamic_guard_judge(motion, world, text, size, err);
 }
 
 static double whole_time(const struct gb_dynamic *motion)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/portable.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "pack/cell/world_record.h"
 #include "scene/tolerances.h"
 #include "solve/loading/loading.h"
@@ -206,8 +206,8 @@ static enum gb_step_outcome decide_next(struct quasistatic_loading *run,
 {
     double pressure[3];
     for (;;) {
-        gb_world_measure_normal_pressures(run->base.world, pressure);
-        const double density = gb_world_measure_density(run->base.world);
+        gb_world_normal_pressures(run->base.world, pressure);
+        const double density = gb_world_density(run->base.world);
         switch (
             gb_quasistatic_next(&run->schedule, pressure, density, run->base.factor)) {
         case GB_QUASISTATIC_RESTORE:
@@ -250,8 +250,8 @@ static enum gb_step_outcome decide_again(struct gb_loading *loading, struct gb_e
     if (run->schedule.branch > 0) {
         return GB_STEP_MORE;
     }
-    gb_world_measure_normal_pressures(loading->world, pressure);
-    const double density = gb_world_measure_density(loading->world);
+    gb_world_normal_pressures(loading->world, pressure);
+    const double density = gb_world_density(loading->world);
     switch (gb_quasistatic_next(&run->schedule, pressure, density, run->base.factor)) {
     case GB_QUASISTATIC_UNLOAD:
         return save_branch_start(run, err) ? GB_STEP_MORE : GB_STEP_STOPPED;
@@ -308,11 +308,11 @@ static double progress(const struct gb_loading *loading, double pressure, double
 static bool missed(const struct gb_loading *loading, char *text, size_t size)
 {
     double pressure[3];
-    gb_world_measure_normal_pressures(loading->world, pressure);
+    gb_world_normal_pressures(loading->world, pressure);
     return gb_quasistatic_missed(
         &view(loading)->schedule, loading->params, loading->model->pascal_per_stress,
         gb_quasistatic_pressure(&view(loading)->schedule, pressure),
-        gb_world_measure_density(loading->world), text, size);
+        gb_world_density(loading->world), text, size);
 }
 
 const struct gb_loading_mode gb_loading_quasistatic = {

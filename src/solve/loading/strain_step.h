@@ -5,10 +5,39 @@
 #include <stdint.h>
 
 #include "base/deformation.h"
+#include "greenbody/status.h"
+#include "pack/cell/nonaffine.h"
 #include "pack/cell/world.h"
 #include "solve/event_queue.h"
-#include "solve/relax/guard.h"
 #include "solve/relax/relax.h"
+
+/* What is done when a strain step fails, in one place. */
+enum gb_guard_action {
+    GB_GUARD_ACCEPT, /* record the state */
+    GB_GUARD_RETRY,  /* go back to the last good state and take half the strain step */
+    GB_GUARD_STOP    /* go back to the last good state and stop; err says why */
+};
+
+struct gb_guard {
+    int halvings; /* of the strain step, in a row */
+    int jumps;    /* of these because of particles that went too far */
+};
+
+/* Judges the outcome of a strain step.  text (size bytes) receives one line for
+ * events.log when something happened, else "".  Errors: err keeps its text on RETRY (what
+ * happened) and is completed on STOP. */
+enum gb_guard_action gb_strain_step_judge(struct gb_guard *guard,
+                                          enum gb_relax_outcome outcome,
+                                          const struct gb_relax *relax, char *text,
+                                          size_t size, struct gb_error *err);
+
+/* Judges the nonaffine displacements of a relaxed strain step: beyond GB_NONAFFINE_MAX a
+ * particle may have passed contacts by.  RETRY while half the step may help; ACCEPT with a
+ * line in text when it does not: an instability of the packing, across a gap or by the
+ * failure of a bridge. */
+enum gb_guard_action gb_strain_step_nonaffine(struct gb_guard *guard,
+                                              const struct gb_nonaffine *nonaffine,
+                                              char *text, size_t size);
 
 /* A strain step of a periodic cell: the deformation in equal parts, each relaxed to
  * equilibrium; guards; the way back to the state before it. */

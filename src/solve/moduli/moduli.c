@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/portable.h"
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 #include "solve/moduli/probe.h"
 
@@ -48,14 +48,14 @@ static void respond(struct gb_tangent *tangent, const double pressure[3][3],
     const int64_t numbers = 6 * tangent->count;
     double strain[3][3], change[3][3];
     gb_moduli_strain(k, 1.0, strain);
-    const double whole = gb_tangent_affine(tangent, (const double(*)[3])strain, force);
+    const double whole = gb_probe_affine(tangent, (const double(*)[3])strain, force);
     const double norm = vector_norm(force, numbers), noise = GB_TANGENT_NOISE * whole;
     memset(motion, 0, (size_t)numbers * sizeof *motion);
     if (norm > noise) {
-        gb_tangent_solve(tangent, force, fmax(GB_TANGENT_SHARE, noise / norm),
-                         ITERATIONS_MAX, motion);
+        gb_probe_solve(tangent, force, fmax(GB_TANGENT_SHARE, noise / norm),
+                       ITERATIONS_MAX, motion);
     }
-    gb_tangent_virial(tangent, (const double(*)[3])strain, motion, change);
+    gb_probe_virial(tangent, (const double(*)[3])strain, motion, change);
     for (int m = 0; m < COMPONENTS; m++) {
         c[m][k] = -component((const double(*)[3])change, m) / volume +
                   (k < 3 ? component(pressure, m) : 0.0);
@@ -214,7 +214,7 @@ static bool measure(struct gb_moduli *moduli, struct gb_probe *probe, double *sl
                 probe->force, slope[k], linear);
     }
     memcpy(moduli->pressure, probe->pressure, sizeof moduli->pressure);
-    moduli->density = gb_world_measure_density(probe->world);
+    moduli->density = gb_world_density(probe->world);
     moduli->residual = probe->residual;
     return choose_strain(moduli, probe, slope, err) &&
            (!options->range || measure_range(moduli, probe, err));

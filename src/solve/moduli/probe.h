@@ -6,8 +6,42 @@
 
 #include "greenbody/status.h"
 #include "pack/cell/world.h"
-#include "solve/moduli/tangent.h"
+#include "pack/kernel/pair_tangent.h"
 #include "solve/relax/relax.h"
+
+/* Stiffness matrix of a packing from the tangents of its pairs, and the linear equations
+ * of all displacements and rotations with it.  It is not symmetric where contacts slide.
+ *
+ * Vectors have 6 x count numbers: displacements (count x 3, d), then rotations; forces
+ * (E d^2), then torques. */
+struct gb_tangent {
+    int64_t count, pairs;
+    struct gb_pair_tangent *pair; /* stiffness transposed */
+    double *inverse;              /* count x 36: inverse blocks of the diagonal */
+    double *scratch[5];           /* of gb_probe_solve */
+};
+
+/* Of a world in double precision right after an evaluation; the world does not change.
+ * motion: as of gb_pair_tangent_list; NULL is fine. */
+bool gb_probe_tangent_create(struct gb_tangent **out, const struct gb_world *world,
+                             struct gb_error *err);
+
+void gb_probe_tangent_destroy(struct gb_tangent *tangent); /* NULL is fine */
+
+/* Forces and torques after an affine strain with the particles held.  Returns what their
+ * norm would be if the forces of pairs did not cancel: in a lattice they do. */
+double gb_probe_affine(const struct gb_tangent *tangent, const double strain[3][3],
+                       double *force);
+
+/* Motion that these forces cause: stabilised biconjugate gradients to a residual of
+ * `tolerance` of the forces, or until the iterations end.  Directions without stiffness do
+ * not move.  Returns the iterations. */
+int gb_probe_solve(struct gb_tangent *tangent, const double *force, double tolerance,
+                   int iterations_max, double *motion);
+
+/* Change of sum f_i r_j over the pairs (E d^3) by a strain and a motion. */
+void gb_probe_virial(const struct gb_tangent *tangent, const double strain[3][3],
+                     const double *motion, double change[3][3]);
 
 /* A copy of a packing in double precision, for small strains: each is applied to the same
  * saved state as one increment, with the motion that keeps the forces in balance.  The
@@ -21,13 +55,13 @@ struct gb_probe {
     struct gb_world *world;
     struct gb_world_copy *base; /* where every strain begins */
     struct gb_relax *relax;
-    struct gb_tangent *tangent;   /* of the saved state ... */
-    struct gb_tangent *local;     /* ... and after the motion so far */
-    double *motion;               /* 6 x count, as in tangent.h: of the last strain ... */
-    double *force, *step;         /* ... and scratch */
-    double pressure[3][3];        /* of the saved state, E */
-    double residual;              /* of it, as gb_world_residual */
-    double moved_rms, moved_most; /* from the packing that was copied, d */
+    struct gb_tangent *tangent;    /* of the saved state ... */
+    struct gb_tangent *local;      /* ... and after the motion so far */
+    double *motion;                /* 6 x count, as in probe.h: of the last strain ... */
+    double *force, *step;          /* ... and scratch */
+    double pressure[3][3];         /* of the saved state, E */
+    double residual;               /* of it, as gb_world_residual */
+    double moved_rms, moved_most;  /* from the packing that was copied, d */
     bool (*cancelled)(void *data); /* polled; NULL is fine */
     void *data;
     int64_t iterations; /* of the conjugate gradients so far */

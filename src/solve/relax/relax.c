@@ -4,9 +4,95 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "greenbody/params.h"
 #include "pack/f32/integrate_f32.h"
+#include "scene/normal_law.h"
 #include "scene/tolerances.h"
-#include "solve/relax/stopping_rule.h"
+
+/* Where a relaxation ends, by numerics.tolerance_scale:
+ *
+ * contact       gb_world_residual, the rms force or torque over the mean contact force or
+ *               f_a(d), whichever is larger; where contacts carry less than their
+ *               attraction the tolerance falls (struct gb_relaxer, light)
+ * attraction    rms force or torque over f_a(d)
+ * displacement  largest displacement of P1 (15) over d - r_eq: that of the centre under
+ *               the largest force, or of the surface under the largest torque, with the
+ *               longest stable step k = 1/K of (15), K the stiffness around the most
+ *               strongly held particle
+ *
+ * The last two are the same for every relaxer and load. */
+
+/* Scratch of the rule.  relax->scale is given. */
+static bool stopping_rule_init(struct gb_relax *relax, const struct gb_model *model,
+                               struct gb_error *err)
+{
+    if (relax->scale != GB_TOLERANCE_DISPLACEMENT) {
+        return true;
+    }
+    relax->sum = gb_alloc_array((size_t)model->count, sizeof *relax->sum, err);
+    return relax->sum != NULL;
+}
+
+/* Residual in mean contact forces at which a relaxation is done.  Under light loads it is
+ * relative to the attraction, which does not bound the error of the pressure. */
+static double allowed(const struct gb_relax *relax, const struct gb_world *world)
+{
+    const struct gb_tally *tally = gb_world_tally(world);
+    const double carried = tally->normal_sum / (fmax(1.0, (double)tally->contacts) *
+                                                gb_world_model(world)->force_floor);
+    const double share = GB_PREDICT_TOLERANCE_SLOPE * carried;
+    return relax->tolerance * fmin(1.0, fmax(relax->method->light, share));
+}
+
+/* Displacement over d - r_eq. */
+static double displacement(const struct gb_relax *relax, const struct gb_world *world)
+{
+    double force, torque;
+    gb_world_largest(world, &force, &torque);
+    const double rotation = 0.5 * torque / GB_RELAX_INERTIA;
+    return fmax(force, rotation) / (relax->stiffness * gb_world_model(world)->h_eq);
+}
+
+/* At least that of one pair at r_eq: a packing may have no contact. */
+static void renew_stiffness(struct gb_relax *relax, const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    relax->stiffness = fmax(gb_relax_steepest_stiffest(world, relax->sum),
+                            gb_normal_law_stiffness(model, model->h_eq));
+}
+
+/* The stiffness is that of GB_STEEPEST_STIFFNESS_MOVES evaluations at most before, as in
+ * (15), and that of this evaluation where the relaxation ends. */
+static bool still(struct gb_relax *relax, const struct gb_world *world)
+{
+    const bool due = relax->evaluations % GB_STEEPEST_STIFFNESS_MOVES == 1;
+    if (due) {
+        renew_stiffness(relax, world);
+    }
+    relax->residual = displacement(relax, world);
+    if (relax->residual <= relax->tolerance && !due) {
+        renew_stiffness(relax, world);
+        relax->residual = displacement(relax, world);
+    }
+    return relax->residual <= relax->tolerance;
+}
+
+/* Right after an evaluation: sets relax->residual, true at or below the tolerance. */
+static bool stopping_rule_met(struct gb_relax *relax, struct gb_world *world)
+{
+    relax->allowed = relax->tolerance;
+    switch (relax->scale) {
+    case GB_TOLERANCE_ATTRACTION:
+        relax->residual = gb_world_imbalance(world) / gb_world_model(world)->adhesion;
+        return relax->residual <= relax->tolerance;
+    case GB_TOLERANCE_DISPLACEMENT:
+        return still(relax, world);
+    default:
+        relax->residual = gb_world_residual(world);
+        relax->allowed = allowed(relax, world);
+        return relax->residual <= relax->allowed;
+    }
+}
 
 static const struct gb_relaxer *const table[] = {&gb_relax_predict, &gb_relax_fire,
                                                  &gb_relax_steepest, NULL};
@@ -77,7 +163,7 @@ bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
     relax->max_evaluations = model->numerics.max_evaluations;
     relax->state = gb_alloc_array(1, method->state_size, err);
     if (!relax->state || !take_vectors(relax, model, err) ||
-        !gb_stopping_rule_init(relax, model, err)) {
+        !stopping_rule_init(relax, model, err)) {
         gb_relax_destroy(relax);
         return false;
     }
@@ -167,7 +253,7 @@ static enum gb_relax_outcome advance(struct gb_relax *relax, struct gb_world *wo
             return GB_RELAX_FAILED;
         }
         relax->evaluations++;
-        if (gb_stopping_rule_met(relax, world)) {
+        if (stopping_rule_met(relax, world)) {
             return GB_RELAX_DONE;
         }
         if (relax->evaluations >= relax->max_evaluations || stalls(relax, world)) {

@@ -10,7 +10,7 @@
 
 /* Relaxation of a world to equilibrium: one table of methods, one stopping rule.
  *
- * The rule (stopping_rule.h): the residual at or below the tolerance, in units of
+ * The rule (relax.h): the residual at or below the tolerance, in units of
  * numerics.tolerance_scale.  A method only moves the particles after each evaluation. */
 struct gb_relax;
 struct gb_record;

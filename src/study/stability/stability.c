@@ -17,7 +17,7 @@
 #include "run/keep_walk.h"
 #include "scene/loading_kind.h"
 #include "scene/model.h"
-#include "solve/loading/dynamic_step.h"
+#include "solve/loading/dynamic.h"
 #include "solve/moduli/probe.h"
 #include "solve/relax/relax.h"
 #include "solve/relax/relax_fire.h"

@@ -4,6 +4,23 @@
 #include "measure/fit/compaction/equations.h"
 #include "measure/fit/fit.h"
 
+enum { GB_EQUATION_ITERATE_ALL = -1 };
+
+struct gb_equation_fit_iterate {
+    const struct gb_equation *equation;
+    const struct gb_equations_points *points;
+    int fixed; /* a parameter that is held; GB_EQUATION_ITERATE_ALL: none */
+    double *x; /* parameters, D0 last: start values, and the result */
+    double squares;
+    bool converged;
+    int undetermined; /* a parameter that the points do not determine; ALL: none */
+    double covariance[GB_EQUATIONS_PARAMETERS]; /* diagonal, of unit variance */
+};
+
+/* Errors: GB_ERR_MEMORY; an iteration that does not settle is no error. */
+bool gb_equation_fit_iterate(struct gb_equation_fit_iterate *iterate,
+                             struct gb_error *err);
+
 /* Least squares of one equation in the relative density, weighted by 1/error^2. */
 struct gb_equation_fit {
     const struct gb_equation *equation;
@@ -37,5 +54,13 @@ bool gb_equation_fit_jackknife(struct gb_equation_fit *fit,
 
 /* rho of the fit. */
 double gb_equation_fit_at(const struct gb_equation_fit *fit, double pressure);
+
+/* Replaces linear intervals by those of the profile likelihood where both differ: the sum
+ * of squares, minimised over the other parameters, has risen by quantile^2 variance.  An
+ * end that is never reached is infinite, or 0 for a positive parameter.
+ * Errors: GB_ERR_MEMORY. */
+bool gb_equation_fit_profile(struct gb_equation_fit *fit,
+                             const struct gb_equations_points *points,
+                             struct gb_error *err);
 
 #endif

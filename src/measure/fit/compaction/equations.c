@@ -1,10 +1,416 @@
+/* Equations of compaction: relative density against pressure.
+ *
+ * Each equation has a density rho(p), its slope by the parameters, and start values for a fit.
+ * The table at the end has one row for each, with its source. */
+
 #include "measure/fit/compaction/equations.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "measure/fit/compaction/equation_models.h"
-#include "measure/fit/compaction/equation_starts.h"
+/* ---- Densities and slopes ---- */
+
+typedef void gb_equation_models_slope(const double *x, double pressure, double *slope);
+
+/* x = K, A */
+/* ln(1/(1 - rho)) = K P + A */
+static double model_heckel(const double *x, double pressure)
+{
+    return -expm1(-(x[0] * pressure + x[1]));
+}
+
+static void model_heckel_slope(const double *x, double pressure, double *slope)
+{
+    const double porosity = exp(-(x[0] * pressure + x[1]));
+    slope[0] = pressure * porosity;
+    slope[1] = porosity;
+}
+
+/* D0/(1 - C), C the relative decrease of volume */
+static double compressed(double initial, double c)
+{
+    return c < 1.0 ? initial / (1.0 - c) : (double)NAN;
+}
+
+/* C = a b P/(1 + b P), that is P/C = 1/(a b) + P/a */
+double gb_equations_kawakita(const double *x, double pressure)
+{
+    const double bp = x[1] * pressure;
+    return compressed(x[2], x[0] * bp / (1.0 + bp));
+}
+
+static void model_kawakita_slope(const double *x, double pressure, double *slope)
+{
+    const double bp = x[1] * pressure;
+    const double left = 1.0 - x[0] * bp / (1.0 + bp); /* D0/rho */
+    const double by_c = x[2] / (left * left);
+    slope[0] = by_c * bp / (1.0 + bp);
+    slope[1] = by_c * x[0] * pressure / ((1.0 + bp) * (1.0 + bp));
+    slope[2] = 1.0 / left;
+}
+
+/* C = (1 - D0) (a1 exp(-k1/P) + a2 exp(-k2/P)): C_inf = 1 - D0 is that of full density */
+double gb_equations_cooper_eaton(const double *x, double pressure)
+{
+    const double filled = x[0] * exp(-x[2] / pressure) + x[1] * exp(-x[3] / pressure);
+    return compressed(x[4], (1.0 - x[4]) * filled);
+}
+
+static void model_cooper_eaton_slope(const double *x, double pressure, double *slope)
+{
+    const double first = exp(-x[2] / pressure);
+    const double second = exp(-x[3] / pressure);
+    const double filled = x[0] * first + x[1] * second;
+    const double left = 1.0 - (1.0 - x[4]) * filled;
+    const double by_filled = x[4] * (1.0 - x[4]) / (left * left);
+    slope[0] = by_filled * first;
+    slope[1] = by_filled * second;
+    slope[2] = -by_filled * x[0] * first / pressure;
+    slope[3] = -by_filled * x[1] * second / pressure;
+    slope[4] = (1.0 - filled) / (left * left);
+}
+
+/* A specific volume as a density. */
+static double inverse(double volume)
+{
+    return volume > 0.0 ? 1.0 / volume : (double)NAN;
+}
+
+/* x = K, c */
+/* 1/rho = c - K ln P */
+static double model_walker(const double *x, double pressure)
+{
+    return inverse(x[1] - x[0] * log(pressure));
+}
+
+static void model_walker_slope(const double *x, double pressure, double *slope)
+{
+    const double rho = 1.0 / (x[1] - x[0] * log(pressure));
+    slope[0] = rho * rho * log(pressure);
+    slope[1] = -rho * rho;
+}
+
+/* x = C1, C2 */
+/* ln P = C2 - C1/rho */
+static double model_balshin(const double *x, double pressure)
+{
+    return inverse((x[1] - log(pressure)) / x[0]);
+}
+
+static void model_balshin_slope(const double *x, double pressure, double *slope)
+{
+    const double rest = x[1] - log(pressure);
+    slope[0] = 1.0 / rest;
+    slope[1] = -x[0] / (rest * rest);
+}
+
+/* P = tau/alpha (exp(alpha eps) - 1) with eps = ln(rho/D0): the exponential of
+ * ln P = ln(tau/alpha) + alpha eps + ln(1 - exp(-alpha eps)) */
+double gb_equations_adams(const double *x, double pressure)
+{
+    return x[2] * exp(log1p(x[1] * pressure / x[0]) / x[1]);
+}
+
+static void model_adams_slope(const double *x, double pressure, double *slope)
+{
+    const double u = x[1] * pressure / x[0];
+    const double strain = log1p(u) / x[1];
+    const double rho = x[2] * exp(strain);
+    slope[0] = -rho * pressure / (x[0] * x[0] * (1.0 + u));
+    slope[1] = rho * (pressure / (x[0] * (1.0 + u)) - strain) / x[1];
+    slope[2] = rho / x[2];
+}
+
+/* x = k, b, D0 */
+/* ln(1/(1 - rho)) = ln(1/(1 - D0)) + k P + b sqrt(P) */
+static double model_shapiro(const double *x, double pressure)
+{
+    return 1.0 - (1.0 - x[2]) * exp(-x[0] * pressure - x[1] * sqrt(pressure));
+}
+
+static void model_shapiro_slope(const double *x, double pressure, double *slope)
+{
+    const double share = exp(-x[0] * pressure - x[1] * sqrt(pressure));
+    slope[0] = (1.0 - x[2]) * share * pressure;
+    slope[1] = (1.0 - x[2]) * share * sqrt(pressure);
+    slope[2] = share;
+}
+
+/* x = A, B */
+/* ln(1/(1 - rho)) = A sqrt(P) + B */
+static double model_panelli(const double *x, double pressure)
+{
+    return -expm1(-(x[0] * sqrt(pressure) + x[1]));
+}
+
+static void model_panelli_slope(const double *x, double pressure, double *slope)
+{
+    const double porosity = exp(-(x[0] * sqrt(pressure) + x[1]));
+    slope[0] = sqrt(pressure) * porosity;
+    slope[1] = porosity;
+}
+
+/* ln((r_inf - D0)/(r_inf - rho)) = K P^n */
+double gb_equations_secondi(const double *x, double pressure)
+{
+    return x[0] - (x[0] - x[3]) * exp(-x[1] * pow(pressure, x[2]));
+}
+
+static void model_secondi_slope(const double *x, double pressure, double *slope)
+{
+    const double power = pow(pressure, x[2]);
+    const double share = exp(-x[1] * power);
+    slope[0] = 1.0 - share;
+    slope[1] = (x[0] - x[3]) * share * power;
+    slope[2] = slope[1] * x[1] * log(pressure);
+    slope[3] = share;
+}
+
+/* ---- Start values ---- */
+
+/* Steps of the grids of nonlinear parameters. */
+enum { GRID = 25, GRID_PAIR = 12 };
+
+double gb_equations_weight(const struct gb_equations_points *points, size_t i)
+{
+    return points->error != NULL ? 1.0 / (points->error[i] * points->error[i]) : 1.0;
+}
+
+double gb_equations_squares(const struct gb_equations_points *points,
+                            double (*density)(const double *x, double pressure),
+                            const double *x)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; i++) {
+        const double off = density(x, points->pressure[i]) - points->density[i];
+        sum += gb_equations_weight(points, i) * off * off;
+    }
+    return isfinite(sum) ? sum : (double)INFINITY;
+}
+
+/* Sums of a regression y = c[0] u + c[1] v without errors of u and v. */
+struct regression {
+    double uu, uv, vv, uy, vy;
+};
+
+static void add(struct regression *sums, double weight, double u, double v, double y)
+{
+    sums->uu += weight * u * u;
+    sums->uv += weight * u * v;
+    sums->vv += weight * v * v;
+    sums->uy += weight * u * y;
+    sums->vy += weight * v * y;
+}
+
+/* Where u and v cannot be told apart, all goes to u. */
+static void solve(const struct regression *sums, double c[2])
+{
+    const double determinant = sums->uu * sums->vv - sums->uv * sums->uv;
+    if (determinant > 1e-12 * sums->uu * sums->vv) {
+        c[0] = (sums->uy * sums->vv - sums->vy * sums->uv) / determinant;
+        c[1] = (sums->vy * sums->uu - sums->uy * sums->uv) / determinant;
+    } else {
+        c[0] = sums->uu > 0.0 ? sums->uy / sums->uu : 0.0;
+        c[1] = 0.0;
+    }
+}
+
+/* ln(1/(1 - rho)), whose error is that of rho over the porosity. */
+static double log_porosity(const struct gb_equations_points *points, size_t i,
+                           double *weight)
+{
+    const double porosity = 1.0 - points->density[i];
+    *weight = gb_equations_weight(points, i) * porosity * porosity;
+    return -log(porosity);
+}
+
+static void start_heckel(const struct gb_equations_points *points, double *x)
+{
+    struct regression sums = {0};
+    for (size_t i = 0; i < points->count; i++) {
+        double weight = 0.0;
+        const double y = log_porosity(points, i, &weight);
+        add(&sums, weight, points->pressure[i], 1.0, y);
+    }
+    solve(&sums, x);
+}
+
+static void start_panelli(const struct gb_equations_points *points, double *x)
+{
+    struct regression sums = {0};
+    for (size_t i = 0; i < points->count; i++) {
+        double weight = 0.0;
+        const double y = log_porosity(points, i, &weight);
+        add(&sums, weight, sqrt(points->pressure[i]), 1.0, y);
+    }
+    solve(&sums, x);
+}
+
+static void start_shapiro(const struct gb_equations_points *points, double *x)
+{
+    struct regression sums = {0};
+    for (size_t i = 0; i < points->count; i++) {
+        double weight = 0.0;
+        const double y = log_porosity(points, i, &weight) + log(1.0 - x[2]);
+        add(&sums, weight, points->pressure[i], sqrt(points->pressure[i]), y);
+    }
+    solve(&sums, x);
+}
+
+static void start_walker(const struct gb_equations_points *points, double *x)
+{
+    struct regression sums = {0};
+    for (size_t i = 0; i < points->count; i++) {
+        const double rho = points->density[i];
+        add(&sums, gb_equations_weight(points, i) * pow(rho, 4.0),
+            -log(points->pressure[i]), 1.0, 1.0 / rho);
+    }
+    solve(&sums, x);
+}
+
+static void start_balshin(const struct gb_equations_points *points, double *x)
+{
+    double walker[2];
+    start_walker(points, walker);
+    const double slope = walker[0] > 1e-6 ? walker[0] : 1e-6;
+    x[0] = 1.0 / slope;
+    x[1] = walker[1] / slope;
+}
+
+/* Geometric middle of the pressures. */
+static double middle_pressure(const struct gb_equations_points *points)
+{
+    return sqrt(points->pressure[0] * points->pressure[points->count - 1]);
+}
+
+/* Step k of `steps` from low to high, geometric. */
+static double grid_value(double low, double high, int k, int steps)
+{
+    return low * pow(high / low, (double)k / (steps - 1));
+}
+
+/* A grid of one parameter: the others follow from it. */
+typedef void grid_fill(const struct gb_equations_points *points, double value, double *x);
+
+static void search(const struct gb_equations_points *points,
+                   double (*density)(const double *x, double pressure), size_t size,
+                   double low, double high, grid_fill *fill, double *x)
+{
+    double best[GB_EQUATIONS_PARAMETERS];
+    double least = INFINITY;
+    memcpy(best, x, size * sizeof *best);
+    for (int k = 0; k < GRID; k++) {
+        double sample[GB_EQUATIONS_PARAMETERS];
+        memcpy(sample, x, size * sizeof *sample);
+        fill(points, grid_value(low, high, k, GRID), sample);
+        const double squares = gb_equations_squares(points, density, sample);
+        if (k == 0 || squares < least) {
+            least = squares;
+            memcpy(best, sample, size * sizeof *best);
+        }
+    }
+    memcpy(x, best, size * sizeof *best);
+}
+
+/* a by regression: D0/rho = 1 - a b P/(1 + b P). */
+static void fill_kawakita(const struct gb_equations_points *points, double b, double *x)
+{
+    struct regression sums = {0};
+    double c[2];
+    for (size_t i = 0; i < points->count; i++) {
+        const double bp = b * points->pressure[i];
+        add(&sums, gb_equations_weight(points, i) * pow(points->density[i], 4.0),
+            bp / (1.0 + bp), 0.0, 1.0 - x[2] / points->density[i]);
+    }
+    solve(&sums, c);
+    x[0] = fmin(c[0], 0.999);
+    x[1] = b;
+}
+
+static void start_kawakita(const struct gb_equations_points *points, double *x)
+{
+    const double p = middle_pressure(points);
+    search(points, gb_equations_kawakita, 3, 1e-3 / p, 1e3 / p, fill_kawakita, x);
+}
+
+/* tau from the mean of ln P. */
+static void fill_adams(const struct gb_equations_points *points, double alpha, double *x)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; i++) {
+        const double strain = log(points->density[i] / x[2]);
+        sum += log(points->pressure[i]) - log(fmax(expm1(alpha * strain), 1e-12) / alpha);
+    }
+    x[0] = exp(sum / (double)points->count);
+    x[1] = alpha;
+}
+
+static void start_adams(const struct gb_equations_points *points, double *x)
+{
+    search(points, gb_equations_adams, 3, 0.1, 100.0, fill_adams, x);
+}
+
+/* K and n by regression of ln ln((r_inf - D0)/(r_inf - rho)) on ln P. */
+static void fill_secondi(const struct gb_equations_points *points, double beyond,
+                         double *x)
+{
+    struct regression sums = {0};
+    double c[2];
+    double most = 0.0;
+    for (size_t i = 0; i < points->count; i++) {
+        most = fmax(most, points->density[i]);
+    }
+    x[0] = most + beyond;
+    for (size_t i = 0; i < points->count; i++) {
+        const double share = log((x[0] - x[3]) / (x[0] - points->density[i]));
+        add(&sums, 1.0, log(points->pressure[i]), 1.0, log(fmax(share, 1e-9)));
+    }
+    solve(&sums, c);
+    x[1] = exp(c[1]);
+    x[2] = fmax(c[0], 1e-3);
+}
+
+static void start_secondi(const struct gb_equations_points *points, double *x)
+{
+    search(points, gb_equations_secondi, 4, 1e-3, 1.0, fill_secondi, x);
+}
+
+/* a1 and a2 by regression: C/C_inf = a1 exp(-k1/P) + a2 exp(-k2/P). */
+static void fill_cooper_eaton(const struct gb_equations_points *points, double *x)
+{
+    struct regression sums = {0};
+    for (size_t i = 0; i < points->count; i++) {
+        const double p = points->pressure[i];
+        const double rho = points->density[i];
+        add(&sums, gb_equations_weight(points, i) * pow(rho, 4.0), exp(-x[2] / p),
+            exp(-x[3] / p), (1.0 - x[4] / rho) / (1.0 - x[4]));
+    }
+    solve(&sums, x);
+}
+
+void gb_equations_start_cooper_eaton(const struct gb_equations_points *points, double *x)
+{
+    const double low = 0.1 * points->pressure[0];
+    const double high = 3.0 * points->pressure[points->count - 1];
+    double best[GB_EQUATIONS_PARAMETERS];
+    double least = INFINITY;
+    for (int i = 0; i < GRID_PAIR; i++) {
+        for (int j = i + 1; j < GRID_PAIR; j++) {
+            x[2] = grid_value(low, high, i, GRID_PAIR);
+            x[3] = grid_value(low, high, j, GRID_PAIR);
+            fill_cooper_eaton(points, x);
+            const double squares =
+                gb_equations_squares(points, gb_equations_cooper_eaton, x);
+            if ((i == 0 && j == 1) || squares < least) {
+                least = squares;
+                memcpy(best, x, sizeof best);
+            }
+        }
+    }
+    memcpy(x, best, sizeof best);
+}
+
+/* ---- The table ---- */
 
 /* Points beyond the parameters: one for the scatter, and AICc needs two more. */
 enum { POINTS_BEYOND = 3 };
@@ -22,9 +428,9 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_BELOW_ONE,
      .count = 2,
      .parameter = {{"K", "1/MPa", false}, {"A", "1", false}},
-     .density = gb_equation_models_heckel,
-     .slope = gb_equation_models_heckel_slope,
-     .start = gb_equation_starts_heckel},
+     .density = model_heckel,
+     .slope = model_heckel_slope,
+     .start = start_heckel},
     {.name = "kawakita",
      .title = "Kawakita",
      .form = "P/C = 1/(a b) + P/a",
@@ -33,9 +439,9 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_ABOVE_INITIAL,
      .count = 2,
      .parameter = {{"a", "1", false}, {"b", "1/MPa", true}},
-     .density = gb_equation_models_kawakita,
-     .slope = gb_equation_models_kawakita_slope,
-     .start = gb_equation_starts_kawakita},
+     .density = gb_equations_kawakita,
+     .slope = model_kawakita_slope,
+     .start = start_kawakita},
     {.name = "cooper-eaton",
      .title = "Cooper-Eaton",
      .form = "C/C_inf = a1 exp(-k1/P) + a2 exp(-k2/P), C_inf = 1 - D0",
@@ -46,27 +452,27 @@ static const struct gb_equation table[] = {
                    {"a2", "1", false},
                    {"k1", "MPa", true},
                    {"k2", "MPa", true}},
-     .density = gb_equation_models_cooper_eaton,
-     .slope = gb_equation_models_cooper_eaton_slope,
-     .start = gb_equation_starts_cooper_eaton},
+     .density = gb_equations_cooper_eaton,
+     .slope = model_cooper_eaton_slope,
+     .start = gb_equations_start_cooper_eaton},
     {.name = "walker",
      .title = "Walker",
      .form = "1/rho = c - K ln P",
      .source = "E. E. Walker, Trans. Faraday Soc. 19, 73 (1923)",
      .count = 2,
      .parameter = {{"K", "1", false}, {"c", "1", false}},
-     .density = gb_equation_models_walker,
-     .slope = gb_equation_models_walker_slope,
-     .start = gb_equation_starts_walker},
+     .density = model_walker,
+     .slope = model_walker_slope,
+     .start = start_walker},
     {.name = "balshin",
      .title = "Balshin",
      .form = "ln P = C2 - C1/rho",
      .source = "M. Yu. Balshin, Vestn. Metalloprom. 18, 124 (1938)",
      .count = 2,
      .parameter = {{"C1", "1", true}, {"C2", "1", false}},
-     .density = gb_equation_models_balshin,
-     .slope = gb_equation_models_balshin_slope,
-     .start = gb_equation_starts_balshin},
+     .density = model_balshin,
+     .slope = model_balshin_slope,
+     .start = start_balshin},
     {.name = "adams",
      .title = "Adams",
      .form = "ln P = ln(tau/alpha) + alpha eps + ln(1 - exp(-alpha eps)), "
@@ -76,9 +482,9 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_ABOVE_INITIAL,
      .count = 2,
      .parameter = {{"tau", "MPa", true}, {"alpha", "1", true}},
-     .density = gb_equation_models_adams,
-     .slope = gb_equation_models_adams_slope,
-     .start = gb_equation_starts_adams},
+     .density = gb_equations_adams,
+     .slope = model_adams_slope,
+     .start = start_adams},
     {.name = "shapiro-konopicky",
      .title = "Shapiro-Konopicky",
      .form = "ln(1/(1 - rho)) = ln(1/(1 - D0)) + k P + b sqrt(P)",
@@ -87,9 +493,9 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_BELOW_ONE | GB_EQUATIONS_ABOVE_INITIAL,
      .count = 2,
      .parameter = {{"k", "1/MPa", false}, {"b", "MPa^-0.5", false}},
-     .density = gb_equation_models_shapiro,
-     .slope = gb_equation_models_shapiro_slope,
-     .start = gb_equation_starts_shapiro},
+     .density = model_shapiro,
+     .slope = model_shapiro_slope,
+     .start = start_shapiro},
     {.name = "panelli-ambrozio",
      .title = "Panelli-Ambrozio",
      .form = "ln(1/(1 - rho)) = A sqrt(P) + B",
@@ -97,9 +503,9 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_BELOW_ONE,
      .count = 2,
      .parameter = {{"A", "MPa^-0.5", false}, {"B", "1", false}},
-     .density = gb_equation_models_panelli,
-     .slope = gb_equation_models_panelli_slope,
-     .start = gb_equation_starts_panelli},
+     .density = model_panelli,
+     .slope = model_panelli_slope,
+     .start = start_panelli},
     {.name = "secondi",
      .title = "Secondi",
      .form = "ln((r_inf - D0)/(r_inf - rho)) = K P^n",
@@ -107,9 +513,9 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_ABOVE_INITIAL,
      .count = 3,
      .parameter = {{"r_inf", "1", true}, {"K", "MPa^-n", true}, {"n", "1", true}},
-     .density = gb_equation_models_secondi,
-     .slope = gb_equation_models_secondi_slope,
-     .start = gb_equation_starts_secondi},
+     .density = gb_equations_secondi,
+     .slope = model_secondi_slope,
+     .start = start_secondi},
 };
 
 enum { COUNT = sizeof table / sizeof table[0] };

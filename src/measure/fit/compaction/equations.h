@@ -6,10 +6,32 @@
 
 #include "greenbody/status.h"
 
+struct gb_equations_points;
+
+/* Start values of the parameters, from points. */
+typedef void gb_equation_starts_function(const struct gb_equations_points *points,
+                                         double *x);
+
+gb_equation_starts_function gb_equations_start_cooper_eaton;
+
+typedef double gb_equation_models_density(const double *x, double pressure);
+
+/* x = a, b, D0 */
+gb_equation_models_density gb_equations_kawakita;
+
+/* x = a1, a2, k1, k2, D0 */
+gb_equation_models_density gb_equations_cooper_eaton;
+
+/* x = tau, alpha, D0 */
+gb_equation_models_density gb_equations_adams;
+
+/* x = r_inf, K, n, D0 */
+gb_equation_models_density gb_equations_secondi;
+
 /* The table of equations of compaction.  Each gives the relative density as a function of
  * the pressure, so that all are fitted to the same errors and can be compared.  An
- * equation is a row in equations.c with its functions in equation_models.c and
- * equation_starts.c.
+ * equation is a row in equations.c with its functions in equations.c and
+ * equations.c.
  *
  * Pressures P in MPa, rho relative density, D0 initial relative density, C = 1 - D0/rho. */
 
@@ -72,5 +94,14 @@ gb_equations_parameter(const struct gb_equation *equation, size_t k);
  * parameters, at as many pressures as parameters or more.  Errors: GB_ERR_INPUT with the equation and the first point outside. */
 bool gb_equations_check(const struct gb_equation *equation,
                         const struct gb_equations_points *points, struct gb_error *err);
+
+/* Weight of point i: 1/error^2, or 1. */
+double gb_equations_weight(const struct gb_equations_points *points, size_t i);
+
+/* Weighted sum of squared residuals of rho; infinite where the parameters give no
+ * density. */
+double gb_equations_squares(const struct gb_equations_points *points,
+                            double (*density)(const double *x, double pressure),
+                            const double *x);
 
 #endif

@@ -5,6 +5,45 @@
 
 #include "solve/loading/die/die_state.h"
 
+/* Translational kinetic energy (E d^3) and the limit of that of a small fall, resultant over
+ * contact forces and its limit: powder at rest is below both, and its highest particle is
+ * supported.  Rotation is left out: nothing damps the spin of a smooth sphere. */
+struct gb_die_cycle_rest_state {
+    double kinetic, kinetic_limit, unbalanced, unbalanced_limit;
+};
+
+struct gb_die_cycle_rest_state
+gb_die_cycle_rest_state(const struct gb_die_stages *stages, const struct gb_bed *bed);
+
+/* Particles above the die. */
+int64_t gb_die_cycle_in_funnel(const struct gb_bed *bed);
+
+enum gb_die_sequence_state {
+    GB_DIE_SEQUENCE_CONTINUES, /* the stage continues */
+    GB_DIE_SEQUENCE_ENDED,     /* it has ended and the next one has begun */
+    GB_DIE_SEQUENCE_FAILED     /* neither; err says why */
+};
+
+/* Gravity is reduced twice, before flattening and behind it, by a constant factor in equal
+ * times: this reduction or the next one (d/T^2, T). */
+struct gb_die_cycle_ramp {
+    double from, to, length;
+};
+
+struct gb_die_cycle_ramp gb_die_cycle_ramp(const struct gb_die_stages *stages);
+
+/* Puts the punch on the powder and starts the ramp of pressure; the bed gets the law of
+ * pressing.  Errors: as of gb_bed_evaluate. */
+bool gb_die_cycle_begin_press(struct gb_die_stages *stages, struct gb_bed *bed,
+                              struct gb_error *err);
+
+/* After a step of a stage before pressing.  text (size bytes) receives one line when a
+ * stage has ended.  Errors: GB_ERR_GUARD when the funnel is clogged, and as of
+ * gb_bed_evaluate. */
+enum gb_die_sequence_state gb_die_cycle_check(struct gb_die_stages *stages,
+                                              struct gb_bed *bed, char *text, size_t size,
+                                              struct gb_error *err);
+
 /* The stages of a die scene that record points: pressing and, in a full cycle, what follows
  * it.  The pressure falls the way it rose; the punch is drawn off; the compact rests in
  * the die; a lower punch pushes it through the open upper end, which lies at the height

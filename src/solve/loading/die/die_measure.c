@@ -3,8 +3,6 @@
 #include <math.h>
 
 #include "solve/loading/die/die_cycle.h"
-#include "solve/loading/die/die_rest.h"
-#include "solve/loading/die/die_sequence.h"
 
 static void set(struct gb_stage_report *report, enum gb_stage_measure measure,
                 double value, double goal, double share)
@@ -20,7 +18,8 @@ static void set(struct gb_stage_report *report, enum gb_stage_measure measure,
 static void set_rest(const struct gb_die_stages *stages, const struct gb_bed *bed,
                      struct gb_stage_report *report)
 {
-    const struct gb_die_rest_state rest = gb_die_rest_state(stages, bed);
+    const struct gb_die_cycle_rest_state rest =
+        gb_die_cycle_rest_state(stages, bed);
     const double kinetic = rest.kinetic / rest.kinetic_limit;
     const double unbalanced = rest.unbalanced / rest.unbalanced_limit;
     const bool forces = kinetic < 1.0 && unbalanced > 1.0 && isfinite(unbalanced);
@@ -63,7 +62,7 @@ static void rest(const struct gb_die_stages *stages, const struct gb_bed *bed,
 static void ease(const struct gb_die_stages *stages, const struct gb_bed *bed,
                  struct gb_stage_report *report)
 {
-    const struct gb_die_sequence_ramp ramp = gb_die_sequence_ramp(stages);
+    const struct gb_die_cycle_ramp ramp = gb_die_cycle_ramp(stages);
     const double share = stages->now.stage_time / ramp.length;
     if (stages->now.flattened) {
         set_resting(stages, bed, 0.8, 0.97, share, report);
@@ -113,11 +112,12 @@ static void of_cycle(const struct gb_die_stages *stages, const struct gb_bed *be
     const bool presses = stage == GB_STAGE_PRESS;
     report->stage = stage;
     if (gb_die_cycle_presses(stages)) {
-        set(report, GB_STAGE_MEASURE_PRESSURE, gb_punch_wanted(punch, punch->time),
+        set(report, GB_STAGE_MEASURE_PRESSURE,
+            gb_die_state_punch_wanted(punch, punch->time),
             presses ? punch->pressure : 0.0, share);
     } else if (stage == GB_STAGE_WITHDRAWAL || stage == GB_STAGE_EJECTION) {
-        const double goal = stages->now.height0 -
-                            (stage == GB_STAGE_EJECTION ? 0.0 : stages->now.peak);
+        const double goal =
+            stages->now.height0 - (stage == GB_STAGE_EJECTION ? 0.0 : stages->now.peak);
         set(report, GB_STAGE_MEASURE_TRAVEL, share * goal, goal, share);
     } else {
         set(report, GB_STAGE_MEASURE_TIME, stages->now.stage_time,
@@ -182,8 +182,8 @@ static double timed_share(const struct gb_die_stages *stages)
     if (stage != GB_DIE_STAGES_PRESS) {
         before = all;
     }
-    for (int k = GB_DIE_STAGES_UNLOAD; stages->scene.full_cycle && k < GB_DIE_STAGES_COUNT;
-         k++) {
+    for (int k = GB_DIE_STAGES_UNLOAD;
+         stages->scene.full_cycle && k < GB_DIE_STAGES_COUNT; k++) {
         const double length = length_of(stages, (enum gb_die_stages_stage)k);
         before += stage != GB_DIE_STAGES_PRESS && k < (int)stage ? length : 0.0;
         all += length;
@@ -195,8 +195,7 @@ void gb_die_measure_stage(const struct gb_die_stages *stages, const struct gb_be
                           struct gb_stage_report *report)
 {
     const struct row *row = &rows[stages->now.stage];
-    report->poured =
-        bed->count - (bed->die.funnel ? gb_die_rest_in_funnel(bed) : 0);
+    report->poured = bed->count - (bed->die.funnel ? gb_die_cycle_in_funnel(bed) : 0);
     report->timed = timed_share(stages);
     if (row->measure) {
         row->measure(stages, bed, report);
@@ -219,9 +218,12 @@ double gb_die_measure_progress(const struct gb_die_stages *stages,
         [GB_STAGE_UNLOADING] = 1.0,
     };
     static const double full[GB_STAGES + 1] = {
-        [GB_STAGE_PRESS] = 0.13,      [GB_STAGE_UNLOADING] = 0.25,
-        [GB_STAGE_WITHDRAWAL] = 0.38, [GB_STAGE_CONFINED] = 0.40,
-        [GB_STAGE_EJECTION] = 0.50,   [GB_STAGE_EJECTED] = 0.93,
+        [GB_STAGE_PRESS] = 0.13,
+        [GB_STAGE_UNLOADING] = 0.25,
+        [GB_STAGE_WITHDRAWAL] = 0.38,
+        [GB_STAGE_CONFINED] = 0.40,
+        [GB_STAGE_EJECTION] = 0.50,
+        [GB_STAGE_EJECTED] = 0.93,
         [GB_STAGES] = 1.0,
     };
     struct gb_stage_report now = {0};
@@ -233,6 +235,7 @@ double gb_die_measure_progress(const struct gb_die_stages *stages,
     const double scale = cycle ? full[GB_STAGE_PRESS] / pressed[GB_STAGE_PRESS] : 1.0;
     const bool fills = now.stage < GB_STAGE_PRESS;
     const double *from = cycle && !fills ? full : pressed;
-    const double share = from[now.stage] + (from[now.stage + 1] - from[now.stage]) * now.share;
+    const double share =
+        from[now.stage] + (from[now.stage + 1] - from[now.stage]) * now.share;
     return fills ? scale * share : share;
 }

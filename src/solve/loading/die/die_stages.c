@@ -7,12 +7,11 @@
 
 #include "base/alloc.h"
 #include "base/units.h"
-#include "pack/die/bed_order.h"
+#include "pack/die/bed_list.h"
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 #include "solve/loading/die/die_cycle.h"
 #include "solve/loading/die/die_measure.h"
-#include "solve/loading/die/die_sequence.h"
 #include "solve/loading/die/die_state.h"
 
 enum { ESCAPE_TEXT = 160 };
@@ -37,9 +36,9 @@ void gb_die_stages_destroy(struct gb_die_stages *stages)
     if (!stages) {
         return;
     }
-    gb_bed_copy_destroy(stages->kept);
-    gb_die_surface_finish(&stages->side);
-    gb_die_surface_finish(&stages->top);
+    gb_bed_record_destroy(stages->kept);
+    gb_die_state_surface_finish(&stages->side);
+    gb_die_state_surface_finish(&stages->top);
     gb_alloc_free(stages);
 }
 
@@ -47,7 +46,7 @@ static bool save_good(struct gb_die_stages *stages, const struct gb_bed *bed,
                       struct gb_error *err)
 {
     stages->good = stages->now;
-    stages->have_good = gb_bed_copy_take(bed, &stages->kept, err);
+    stages->have_good = gb_bed_record_take(bed, &stages->kept, err);
     return stages->have_good;
 }
 
@@ -67,7 +66,7 @@ static enum gb_step_outcome halve_time_step(struct gb_die_stages *stages,
     char last[48], half[48];
     write_step(stages, step, last, sizeof last);
     write_step(stages, 0.5 * step, half, sizeof half);
-    if (!gb_bed_copy_restore(bed, stages->kept, err)) {
+    if (!gb_bed_record_restore(bed, stages->kept, err)) {
         return GB_STEP_STOPPED;
     }
     stages->now = stages->good;
@@ -85,7 +84,7 @@ bool gb_die_stages_begin(struct gb_die_stages *stages, struct gb_bed *bed,
                          struct gb_error *err)
 {
     stages->have_good = false;
-    return gb_die_sequence_begin_press(stages, bed, err);
+    return gb_die_cycle_begin_press(stages, bed, err);
 }
 
 static void write_escape(const struct gb_bed *bed, int64_t i, char *why, size_t size)
@@ -128,7 +127,7 @@ static double pressed_density(struct gb_die_stages *stages, const struct gb_bed 
 static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_bed *bed,
                                        double density, struct gb_error *err)
 {
-    if (!gb_bed_copy_restore(bed, stages->kept, err)) {
+    if (!gb_bed_record_restore(bed, stages->kept, err)) {
         return GB_STEP_STOPPED;
     }
     stages->now = stages->good;
@@ -183,7 +182,7 @@ static enum gb_step_outcome check_punch(struct gb_die_stages *stages, struct gb_
 static enum gb_step_outcome check_stage(struct gb_die_stages *stages, struct gb_bed *bed,
                                         char *text, size_t size, struct gb_error *err)
 {
-    switch (gb_die_sequence_check(stages, bed, text, size, err)) {
+    switch (gb_die_cycle_check(stages, bed, text, size, err)) {
     case GB_DIE_SEQUENCE_CONTINUES:
         return GB_STEP_MORE;
     case GB_DIE_SEQUENCE_ENDED:
@@ -207,7 +206,8 @@ static enum gb_step_outcome check_cycle(struct gb_die_stages *stages, struct gb_
 {
     struct gb_die_progress *now = &stages->now;
     char why[ESCAPE_TEXT];
-    gb_punch_follow(&now->punch, &now->leapfrog, bed, gb_die_cycle_wall(stages, bed));
+    gb_die_state_punch_follow(&now->punch, &now->leapfrog, bed,
+                              gb_die_cycle_wall(stages, bed));
     if (!gb_die_cycle_due(stages, bed)) {
         return GB_STEP_MORE;
     }
@@ -221,7 +221,7 @@ static bool follow_flow(const struct gb_die_stages *stages, struct gb_bed *bed,
                         struct gb_error *err)
 {
     return stages->now.stage != GB_DIE_STAGES_POUR ||
-           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_order_renumber(bed, err);
+           stages->now.steps % GB_RENUMBER_STEPS != 0 || gb_bed_list_renumber(bed, err);
 }
 
 static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_bed *bed,
@@ -265,7 +265,7 @@ static bool after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *
     if (!gb_die_cycle_after_point(stages, bed, text, size, err)) {
         return false;
     }
-    gb_punch_clear(&now->punch);
+    gb_die_state_punch_clear(&now->punch);
     return save_good(stages, bed, err);
 }
 
@@ -310,7 +310,8 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
     const struct gb_die_progress *now = &stages->now;
     const struct gb_punch *punch = &now->punch;
     const double weight = punch->weight > 0.0 ? punch->weight : 1.0;
-    const double wanted = now->height0 > 0.0 ? gb_punch_wanted(punch, punch->time) : 0.0;
+    const double wanted =
+        now->height0 > 0.0 ? gb_die_state_punch_wanted(punch, punch->time) : 0.0;
     const bool pressed = now->height0 > 0.0;
     struct gb_die_stages_report report = {
         .stage = now->stage,
@@ -391,8 +392,10 @@ bool gb_die_stages_record(struct gb_die_stages *stages, const struct gb_bed *bed
         (known && !gb_record_members(record, cycle_members,
                                      sizeof cycle_members / sizeof cycle_members[0],
                                      stages, err)) ||
-        !gb_die_surface_record(&stages->side, "cycle/side", bed->count, record, err) ||
-        !gb_die_surface_record(&stages->top, "cycle/top", bed->count, record, err)) {
+        !gb_die_state_surface_record(&stages->side, "cycle/side", bed->count, record,
+                                     err) ||
+        !gb_die_state_surface_record(&stages->top, "cycle/top", bed->count, record,
+                                     err)) {
         return false;
     }
     if (now->stage != GB_DIE_STAGES_OVER && !gb_die_cycle_contains(now->stage)) {

@@ -4,15 +4,84 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/record.h"
 #include "pack/die/bed.h"
-#include "pack/die/bed_copy.h"
+#include "pack/die/bed_record.h"
 #include "scene/model.h"
 #include "solve/leapfrog.h"
 #include "solve/loading/die/die_stages.h"
-#include "solve/loading/die/die_surface.h"
-#include "solve/loading/die/punch.h"
 
-/* Internal to die_stages.c, die_sequence.c, die_cycle.c and die_rest.c.  Reduced units. */
+/* What the pressure of the punch does. */
+enum gb_punch_ramp {
+    GB_PUNCH_RISES,
+    GB_PUNCH_FALLS, /* the same way back */
+    GB_PUNCH_OFF    /* no pressure: the punch is on its way out, or out */
+};
+
+/* A punch under a given pressure p(t): a body with the force F of the powder,
+ * M a = F - p(t) A.  No controller: masses between 0.1 and 1 of the bed's give the same
+ * curve; ten lag behind below 5 MPa. */
+struct gb_punch {
+    double area, length; /* of the die's section; time of the ramp */
+    double pressure;     /* at its upper end */
+    bool quadratic;      /* p = p_max (t/T)^2, else linear; falling: p_max (1 - t/T)^2 */
+    enum gb_punch_ramp ramp;
+    double time; /* since the ramp began */
+    /* Work done on the powder since pressing began, by the trapezoidal rule over the
+     * steps: position and force of the last step are its left side. */
+    double work, position, force;
+    /* means since the last point, weighted by the steps */
+    double weight, carried, wanted, floor, side[2];
+    double drag; /* of the side, E d^2: a force */
+};
+
+/* Puts the punch at rest on a height; mass in masses of the bed. */
+void gb_die_state_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leapfrog,
+                              struct gb_bed *bed, double height, double mass);
+
+/* Pressure of the ramp after a time. */
+double gb_die_state_punch_wanted(const struct gb_punch *punch, double time);
+
+/* Adds the last step to the means and sets the load of the next one.
+ *
+ * height   of the powder against the side */
+void gb_die_state_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leapfrog,
+                               const struct gb_bed *bed, double height);
+
+/* Resets the means. */
+void gb_die_state_punch_clear(struct gb_punch *punch);
+
+/* A surface of the compact: the particles that touched a wall under the full pressure.  The
+ * median over them stands for its position: a few particles that come off move the mean by
+ * any amount.  A zeroed surface is empty. */
+struct gb_die_surface {
+    int64_t count;
+    int32_t *particle;
+    double *value; /* room for the median */
+};
+
+/* The particles that touch a wall, right after an evaluation; replaces what it held.
+ * Errors: GB_ERR_MEMORY. */
+bool gb_die_state_surface_take(struct gb_die_surface *surface, const struct gb_bed *bed,
+                               enum gb_die_wall wall, struct gb_error *err);
+
+void gb_die_state_surface_finish(struct gb_die_surface *surface);
+
+/* Median height of the upper, or distance from the axis of the outer points of its
+ * particles; NaN for an empty one. */
+double gb_die_state_surface_height(const struct gb_die_surface *surface,
+                                   const struct gb_bed *bed);
+
+double gb_die_state_surface_radius(const struct gb_die_surface *surface,
+                                   const struct gb_bed *bed);
+
+/* Into a record, or back; loading, a record without the item leaves it empty.
+ * particles: of the bed.  Errors: GB_ERR_INPUT, GB_ERR_MEMORY. */
+bool gb_die_state_surface_record(struct gb_die_surface *surface, const char *name,
+                                 int64_t particles, struct gb_record *record,
+                                 struct gb_error *err);
+
+/* The pressing of a bed under way: internal to the die_*.c files.  Reduced units. */
 
 /* The part of the state that a guard restores. */
 struct gb_die_progress {
@@ -26,9 +95,9 @@ struct gb_die_progress {
     /* For the display alone: the highest kinetic energy of the checks over its limit, and the
      * share of the way from there to rest. */
     double most_kinetic, rest_share;
-    bool flattened;     /* flattening has begun */
-    int64_t rest_from;  /* since_point when the punch had been lifted */
-    double punch_from;  /* position of the punch when flattening began */
+    bool flattened;    /* flattening has begun */
+    int64_t rest_from; /* since_point when the punch had been lifted */
+    double punch_from; /* position of the punch when flattening began */
     double height0, next_record;
     bool at_point; /* the last step ended in a point */
     double peak;   /* height of the punch under the full pressure; 0: not reached yet */
@@ -41,7 +110,7 @@ struct gb_die_stages {
     struct gb_die_progress now, good;
     struct gb_bed_copy *kept;        /* the bed of `good` */
     struct gb_die_surface side, top; /* of the compact, against wall and punch */
-    double solid_volume; /* of the spheres; 0: not summed yet */
+    double solid_volume;             /* of the spheres; 0: not summed yet */
     int halvings;
     bool have_good;
 };

@@ -5,8 +5,16 @@
 #include <stdint.h>
 
 #include "base/record.h"
+#include "greenbody/status.h"
+#include "pack/cell/world.h"
 #include "scene/model.h"
-#include "solve/loading/path/strain_tangent.h"
+#include "scene/path/path.h"
+
+/* Stress of a packing against strain of its cell, as far as it is known: stress increments
+ * k strain increments, components as in scene/path/path.h, in E. */
+struct gb_strain_tangent {
+    double k[GB_PATH_COMPONENTS][GB_PATH_COMPONENTS];
+};
 
 /* A loading path under way, as a state machine: from stress and density of each
  * relaxed state to the next strain increment, and from the stress after it to the
@@ -48,6 +56,49 @@ struct gb_leg_run {
     double exceeded_value;
     struct gb_strain_tangent affine, tangent, small;
 };
+
+/* Deformation gradient of the strains: diagonal exp(-e), engineering shears above it. */
+struct gb_deformation gb_leg_run_deformation(const double strain[GB_PATH_COMPONENTS]);
+
+/* Pressures xx, yy, zz and the shear stresses of a world right after an evaluation. */
+void gb_leg_run_stress(const struct gb_world *world, double stress[GB_PATH_COMPONENTS]);
+
+/* The tangent without relaxation, from small affine strains of the packing, which is
+ * brought back to *good (saved here).  Shears only where the model allows them.  Stiffer
+ * than the relaxed packing, and the start of what is learned.  Errors: GB_ERR_MEMORY,
+ * GB_ERR_GUARD. */
+bool gb_leg_run_measure(struct gb_strain_tangent *tangent, struct gb_world *world,
+                        struct gb_world_copy **good, struct gb_error *err);
+
+/* A linear condition on the stress of component `of`: its increment, less share times the
+ * one of component `base` (share 0: none), is `change`. */
+struct gb_stress_condition {
+    int of, base;
+    double share, change;
+};
+
+enum gb_leg_step_outcome {
+    GB_LEG_STEP_HELD,    /* all held stresses are there */
+    GB_LEG_STEP_CORRECT, /* a further strain is needed */
+    GB_LEG_STEP_BEYOND,  /* the step went past the end of the leg: a shorter one */
+    GB_LEG_STEP_MISSED   /* corrections do not lead there */
+};
+
+/* Stress after the relaxation of a step: what is left to correct, in correction. */
+enum gb_leg_step_outcome gb_leg_run_check(struct gb_leg_run *run,
+                                          const struct gb_model *model,
+                                          const double stress[6], double correction[6]);
+
+/* The step again, as long as it takes to the end that it went past. */
+void gb_leg_run_shorten(struct gb_leg_run *run, const struct gb_model *model);
+
+/* Half the step, from the last accepted state again. */
+void gb_leg_run_halve(struct gb_leg_run *run, const struct gb_model *model);
+
+/* "leg 2 (shear xz to 20 % at z = 50 MPa): no equilibrium with z = 50 MPa beyond a strain
+ * of 4.1 %: collapse".  Returns buffer. */
+char *gb_leg_run_held_missed(const struct gb_leg_run *run, const struct gb_model *model,
+                             char *buffer, size_t size);
 
 enum gb_leg_run_order {
     GB_LEG_RUN_STRAIN,   /* take `increment` */

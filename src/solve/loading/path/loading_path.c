@@ -4,12 +4,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "pack/cell/world_measure.h"
+#include "pack/cell/world.h"
 #include "scene/tolerances.h"
 #include "solve/loading/loading.h"
 #include "solve/loading/loading_cell.h"
-#include "solve/loading/path/leg_held.h"
-#include "solve/loading/path/leg_step.h"
+#include "solve/loading/path/leg_run.h"
 #include "solve/loading/strain_step.h"
 
 struct path_loading {
@@ -81,7 +80,7 @@ static void strain(struct path_loading *run)
     for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
         part[k] = run->legs.increment[k] / parts;
     }
-    const struct gb_deformation deformation = gb_strain_tangent_deformation(part);
+    const struct gb_deformation deformation = gb_leg_run_deformation(part);
     gb_strain_step_begin(&run->step, &deformation, parts);
     run->base.strain_due = false;
 }
@@ -89,7 +88,7 @@ static void strain(struct path_loading *run)
 /* Half the step from the last good state on. */
 static enum gb_step_outcome halve(struct path_loading *run)
 {
-    gb_leg_step_halve(&run->legs, run->base.model);
+    gb_leg_run_halve(&run->legs, run->base.model);
     run->base.strain_due = true;
     return GB_STEP_MORE;
 }
@@ -102,7 +101,7 @@ static enum gb_step_outcome miss(struct path_loading *run, struct gb_event_queue
     const struct gb_model *model = run->base.model;
     char text[GB_EVENT_TEXT];
     const bool collapsed = ++run->misses > GB_STRAIN_HALVINGS_MAX;
-    gb_leg_held_missed(&run->legs, model, text, sizeof text);
+    gb_leg_run_held_missed(&run->legs, model, text, sizeof text);
     if (gb_strain_step_take_back(&run->step, "", events, err) == GB_STRAIN_STEP_STOPPED) {
         return GB_STEP_STOPPED;
     }
@@ -126,7 +125,7 @@ static enum gb_step_outcome shorten(struct path_loading *run,
     if (gb_strain_step_take_back(&run->step, "", events, err) == GB_STRAIN_STEP_STOPPED) {
         return GB_STEP_STOPPED;
     }
-    gb_leg_step_shorten(&run->legs, run->base.model);
+    gb_leg_run_shorten(&run->legs, run->base.model);
     run->base.strain_due = true;
     return GB_STEP_MORE;
 }
@@ -136,12 +135,12 @@ static enum gb_step_outcome check(struct path_loading *run, struct gb_event_queu
                                   struct gb_error *err)
 {
     double stress[GB_PATH_COMPONENTS], correction[GB_PATH_COMPONENTS];
-    gb_strain_tangent_stress(run->base.world, stress);
-    switch (gb_leg_step_check(&run->legs, run->base.model, stress, correction)) {
+    gb_leg_run_stress(run->base.world, stress);
+    switch (gb_leg_run_check(&run->legs, run->base.model, stress, correction)) {
     case GB_LEG_STEP_HELD:
         break;
     case GB_LEG_STEP_CORRECT: {
-        const struct gb_deformation small = gb_strain_tangent_deformation(correction);
+        const struct gb_deformation small = gb_leg_run_deformation(correction);
         gb_strain_step_correct(&run->step, &small);
         return GB_STEP_MORE;
     }
@@ -197,12 +196,12 @@ static bool begin_leg(struct path_loading *run, struct gb_event_queue *events,
     struct gb_world *world = run->base.world;
     struct gb_strain_tangent affine;
     double stress[GB_PATH_COMPONENTS];
-    if (!gb_strain_tangent_measure(&affine, world, &run->step.good, err)) {
+    if (!gb_leg_run_measure(&affine, world, &run->step.good, err)) {
         return false;
     }
-    gb_strain_tangent_stress(world, stress);
+    gb_leg_run_stress(world, stress);
     gb_leg_run_begin(&run->legs, run->base.model, &affine, stress,
-                     gb_world_measure_density(world));
+                     gb_world_density(world));
     if (events) {
         add_leg_event(run, events);
     }
@@ -235,7 +234,7 @@ decide_next(struct path_loading *run, struct gb_event_queue *events, struct gb_e
     const struct gb_model *model = run->base.model;
     char text[GB_EVENT_TEXT];
     for (;;) {
-        const double density = gb_world_measure_density(run->base.world);
+        const double density = gb_world_density(run->base.world);
         if (run->legs.leg < model->path.count && run->legs.begun <= run->legs.leg &&
             !begin_leg(run, events, err)) {
             return GB_STEP_STOPPED;
@@ -265,9 +264,9 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
     loading->restored = false;
     gb_strain_step_clear_spent(&run->step);
     if (run->legs.begun > 0) {
-        gb_strain_tangent_stress(loading->world, stress);
+        gb_leg_run_stress(loading->world, stress);
         gb_leg_run_accept(&run->legs, loading->model, stress,
-                          gb_world_measure_density(loading->world));
+                          gb_world_density(loading->world));
     }
     return decide_next(run, events, err);
 }

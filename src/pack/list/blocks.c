@@ -1,12 +1,11 @@
-#include "pack/list/engine_blocks.h"
+#include "pack/list/blocks.h"
 
 #include "pack/cell/engine.h"
-#include "pack/list/blocks.h"
 
 /* Cost of a near pair in that of a far pair. */
 enum { NEAR_COST = 4 };
 
-void gb_engine_blocks_weigh(struct gb_engine *engine)
+void gb_blocks_weigh(struct gb_engine *engine)
 {
     const int64_t count = engine->particles.count, blocks = gb_blocks_count(count);
     const struct gb_pair_list *near = &engine->list.near, *far = &engine->list.far;
@@ -16,7 +15,7 @@ void gb_engine_blocks_weigh(struct gb_engine *engine)
     }
 }
 
-void gb_engine_blocks_run(struct gb_engine *engine, gb_team_item *work, void *data)
+void gb_blocks_run(struct gb_engine *engine, gb_team_item *work, void *data)
 {
     const int64_t blocks = gb_blocks_count(engine->particles.count);
     gb_team_run_costs(engine->team, blocks, engine->block_cost, work, data);

@@ -1,17 +1,99 @@
-#include "pack/list/contact_carry.h"
+/* Rebuild of the lists of the engine, and of all that has one entry per pair.
+ *
+ * Contact records hold the history of friction, so that they must survive a rebuild.  The
+ * caller notes the contacts, builds the lists and then moves the records:
+ *   carry_note   the pair and the slot of every contact, in the order of the old list
+ *   build        new lists, and room for their pairs in every array
+ *   carry_move   each record from its old slot to its new one, within its array
+ * Both lists have the same order.  Records that move down go first in ascending order, then
+ * those that move up in descending order: none overwrites another, and no copy is needed. */
 
+#include "pack/list/engine_lists.h"
+
+#include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/team/team.h"
+#include "greenbody/status.h"
+#include "pack/cell/contacts.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/share.h"
 #include "pack/list/blocks.h"
+#include "pack/list/neighbour_list.h"
+#include "scene/loading_kind.h"
 
-/* Loops over the slots are compiled for each size of a number. */
-#define INLINE static inline __attribute__((always_inline))
+/* ---- Build ---- */
 
-void gb_contact_carry_finish(struct gb_contact_carry *carry)
+/* Room for the records of a longer list, array by array; those that exist stay.  On failure there
+ * are none. */
+static bool grow_contacts(struct gb_contacts *contacts, int64_t capacity,
+                          struct gb_error *err)
+{
+    const size_t size = gb_real_size(contacts->real);
+    const size_t room = (size_t)(capacity + 15) / 16 * 16; /* whole vectors */
+    for (int p = 0; p < contacts->planes; p++) {
+        void *plane = gb_alloc_array(room, size, err);
+        if (!plane) {
+            gb_contacts_finish(contacts);
+            return false;
+        }
+        memcpy(plane, contacts->plane[p], (size_t)contacts->capacity * size);
+        gb_alloc_free(contacts->plane[p]);
+        contacts->plane[p] = plane;
+    }
+    contacts->capacity = capacity;
+    return true;
+}
+
+/* Room for the pairs of the lists as they are. */
+static bool reserve(struct gb_engine *engine, struct gb_error *err)
+{
+    const struct gb_model *model = engine->model;
+    const int64_t near = engine->list.near.capacity, far = engine->list.far.capacity;
+    const enum gb_real real = engine->state.real;
+    const bool viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
+    if (near > engine->contacts.capacity) {
+        const struct gb_contacts_shape shape = {model->record_dimension, viscous, real};
+        if ((real == GB_REAL_F64 &&
+             !gb_pair_results_resize_near(&engine->pair, near, err)) ||
+            !(engine->contacts.capacity > 0
+                  ? grow_contacts(&engine->contacts, near, err)
+                  : gb_contacts_init(&engine->contacts, shape, near, err))) {
+            return false;
+        }
+    }
+    if (far > engine->pair.far_capacity &&
+        !gb_pair_results_resize_far(
+            &engine->pair, far, real,
+            viscous ? GB_PAIR_RESULTS_FAR_WORK : GB_PAIR_RESULTS_FAR_FORCE, err)) {
+        return false;
+    }
+    return real == GB_REAL_F64 ||
+           gb_f32_state_assign_rows(&engine->f32.rows, &engine->list, err);
+}
+
+bool gb_engine_lists_build(struct gb_engine *engine, const struct gb_cell *cell,
+                           struct gb_error *err)
+{
+    const struct gb_numerics *numerics = &engine->model->numerics;
+    const struct gb_neighbour_list_range range = {numerics->cutoff, numerics->skin};
+    gb_engine_state_drop_lists(&engine->state);
+    if (!gb_neighbour_list_build(&engine->list, cell, engine->particles.position, range,
+                                 engine->team, err) ||
+        !reserve(engine, err)) {
+        gb_neighbour_list_clear(&engine->list);
+        return false;
+    }
+    gb_blocks_weigh(engine);
+    gb_engine_state_build_lists(&engine->state);
+    return true;
+}
+
+/* ---- Carry: note ---- */
+
+void gb_engine_lists_carry_finish(struct gb_contact_carry *carry)
 {
     gb_alloc_free(carry->pair);
     gb_alloc_free(carry->slot);
@@ -19,7 +101,8 @@ void gb_contact_carry_finish(struct gb_contact_carry *carry)
     *carry = (struct gb_contact_carry){0};
 }
 
-static bool reserve(struct gb_contact_carry *carry, int64_t need, struct gb_error *err)
+static bool reserve_carry(struct gb_contact_carry *carry, int64_t need,
+                          struct gb_error *err)
 {
     if (need <= carry->capacity) {
         return true;
@@ -88,8 +171,8 @@ static void note_item(void *data, int64_t t)
     }
 }
 
-bool gb_contact_carry_note(struct gb_contact_carry *carry, const struct gb_engine *engine,
-                           struct gb_error *err)
+bool gb_engine_lists_carry_note(struct gb_contact_carry *carry,
+                                const struct gb_engine *engine, struct gb_error *err)
 {
     const int parts = gb_team_size(engine->team);
     struct noting noting = {carry, engine};
@@ -105,7 +188,7 @@ bool gb_contact_carry_note(struct gb_contact_carry *carry, const struct gb_engin
     for (int t = 0; t < parts; t++) {
         carry->begin[t + 1] += carry->begin[t];
     }
-    if (!reserve(carry, carry->begin[parts], err)) {
+    if (!reserve_carry(carry, carry->begin[parts], err)) {
         return false;
     }
     gb_team_run(engine->team, parts, note_item, &noting);
@@ -113,31 +196,14 @@ bool gb_contact_carry_note(struct gb_contact_carry *carry, const struct gb_engin
     return true;
 }
 
-bool gb_contact_carry_grow(struct gb_contacts *contacts, int64_t capacity,
-                           struct gb_error *err)
-{
-    const size_t size = gb_real_size(contacts->real);
-    const size_t room = (size_t)(capacity + 15) / 16 * 16; /* whole vectors */
-    for (int p = 0; p < contacts->planes; p++) {
-        void *plane = gb_alloc_array(room, size, err);
-        if (!plane) {
-            gb_contacts_finish(contacts);
-            return false;
-        }
-        memcpy(plane, contacts->plane[p], (size_t)contacts->capacity * size);
-        gb_alloc_free(contacts->plane[p]);
-        contacts->plane[p] = plane;
-    }
-    contacts->capacity = capacity;
-    return true;
-}
+/* ---- Carry: move ---- */
 
 struct moving {
     struct gb_contact_carry *carry;
     struct gb_engine *engine;
 };
 
-/* The first contact of particle i or of one behind it. */
+/* The first contact of particle i or of a later one. */
 static int64_t find_particle(const struct gb_contact_carry *carry, int64_t i)
 {
     int64_t low = 0, high = carry->count;
@@ -171,9 +237,10 @@ static void find_slots(void *data, int64_t begin, int64_t end)
     }
 }
 
-/* One array of the records, of numbers of `size` bytes.  Those that move down in ascending
- * order, then those that move up in descending order overwrite none that has still to
- * move. */
+/* Loops over the slots are compiled for each size of a number. */
+#define INLINE static inline __attribute__((always_inline))
+
+/* One array of the records, of numbers of `size` bytes. */
 INLINE void move_plane(char *plane, size_t size, const struct gb_contact_carry *carry)
 {
     for (int64_t c = 0; c < carry->count; c++) {
@@ -222,7 +289,7 @@ static void move_item(void *data, int64_t p)
     }
 }
 
-void gb_contact_carry_move(struct gb_contact_carry *carry, struct gb_engine *engine)
+void gb_engine_lists_carry_move(struct gb_contact_carry *carry, struct gb_engine *engine)
 {
     struct moving moving = {carry, engine};
     gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_GRAIN, find_slots,
