@@ -9,7 +9,7 @@
 
 #include "draw/image/palette.h"
 #include "draw/image/png.h"
-#include "draw/style/picture_style_parse.h"
+#include "draw/picture_style.h"
 
 /* The coordination number whose colour has the hue nearest to a lit pixel. */
 static int nearest_contacts(const uint8_t *pixel)

@@ -1,5 +1,5 @@
 /* Style of a picture: colours, hidden particles, rods; without a renderer. */
-#include "draw/style/picture_style.h"
+#include "draw/picture_style.h"
 
 #include <glib.h>
 #include <math.h>
@@ -7,8 +7,7 @@
 
 #include "draw/image/palette.h"
 #include "io/state/state_stress.h"
-#include "draw/style/picture_colours.h"
-#include "draw/style/picture_style_parse.h"
+#include "draw/picture_colours.h"
 
 /* Four particles in a row along z; the last touches the first through the wall.  The
  * contacts press with 1, 2, pull with 0.5, and press with 0 over the wall. */

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "cli/complete/candidates.h"
-#include "draw/style/picture_colours.h"
+#include "draw/picture_colours.h"
 #include "figures/figures.h"
 #include "io/export/export.h"
 #include "measure/fit/compaction/equations.h"

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "draw/style/round_number.h"
+#include "base/number.h"
 
 #define MINUS "\xe2\x88\x92"
 
@@ -44,7 +44,7 @@ static void put_minor(struct gb_figure_axis_scale *scale, double value)
 /* Tick step; *parts: number of minor steps in it. */
 static double tick_step(double rough, int *parts)
 {
-    const double step = gb_round_number_step(rough);
+    const double step = gb_number_nearest_step(rough);
     *parts = lround(step / pow(10.0, floor(log10(step) + 1e-9))) == 2 ? 4 : 5;
     return step;
 }

@@ -12,7 +12,8 @@ enum { GB_PALETTE_CONTACTS = 12, GB_PALETTE_ANCHORS = 17 };
 struct gb_palette_map {
     const char *name, *doc;
     bool diverging; /* two arms from a light middle */
-    double start;   /* share where values begin: a nearly black end would hide the shading */
+    double
+        start; /* share where values begin: a nearly black end would hide the shading */
     uint8_t anchor[GB_PALETTE_ANCHORS][3]; /* at 0, 1/16, ..., 1 */
 };
 

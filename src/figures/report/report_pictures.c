@@ -4,8 +4,8 @@
 
 #if GB_WITH_PICTURES
 
-#include "draw/packing_panels.h"
-#include "draw/style/picture_colours.h"
+#include "draw/packing_image.h"
+#include "draw/picture_colours.h"
 #include "figures/provenance.h"
 #include "figures/states.h"
 
@@ -44,16 +44,16 @@ enum contacts { CONTACTS_OPTIONAL, CONTACTS_REQUIRED };
 static const struct picture {
     const char *name, *caption;
     enum contacts contacts;
-    enum gb_packing_panels_content content; /* with contacts */
+    enum gb_packing_image_panels content; /* with contacts */
     void (*set)(struct gb_packing_image *packing_image, const struct gb_state *state);
 } pictures[] = {
     {"packing",
      "particles by coordination number, and the mean normal force by direction",
-     CONTACTS_OPTIONAL, GB_PACKING_PANELS_WITH_ROSE, set_packing},
+     CONTACTS_OPTIONAL, GB_PACKING_IMAGE_WITH_ROSE, set_packing},
     {"pressure", "particles by their mean stress", CONTACTS_REQUIRED,
-     GB_PACKING_PANELS_PACKING, set_stress},
+     GB_PACKING_IMAGE_ALONE, set_stress},
     {"forces", "forces between particles, in 3D in a slab 3 diameters thick",
-     CONTACTS_REQUIRED, GB_PACKING_PANELS_PACKING, set_forces},
+     CONTACTS_REQUIRED, GB_PACKING_IMAGE_ALONE, set_forces},
 };
 
 static void show(struct gb_report *report, const struct gb_state *state, const char *file,
@@ -75,12 +75,12 @@ static bool add_picture(struct gb_report *report, size_t group, struct gb_state 
     struct gb_packing_image packing_image;
     struct gb_error cause = {0};
     gb_packing_image_init(&packing_image);
-    packing_image.crop = GB_CAPTION_LAYOUT_CROP_BOTH;
+    packing_image.crop = GB_CAPTION_CROP_BOTH;
     packing_image.preset = preset;
     picture->set(&packing_image, state);
-    const bool drawn = gb_packing_panels_write(
+    const bool drawn = gb_packing_image_write_panels(
         &packing_image,
-        state->pair_count > 0 ? picture->content : GB_PACKING_PANELS_PACKING, &state, 1,
+        state->pair_count > 0 ? picture->content : GB_PACKING_IMAGE_ALONE, &state, 1,
         path, &cause);
     const bool no_data = !drawn && cause.code == GB_ERR_INPUT;
     if (drawn) {

@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "draw/image/apng.h"
+#include "draw/image/png.h"
 #include "figures/output_formats.h"
 #include "figures/sequence/video.h"
 
@@ -34,7 +34,7 @@ char *gb_frame_writer_path(const char *path, int number)
 struct apng_writer {
     struct gb_frame_output output;
     struct gb_packing_image_texts texts;
-    struct gb_apng *apng;
+    struct gb_png_animation *apng;
 };
 
 static bool close_apng(void *data, bool done, struct gb_error *err)
@@ -43,8 +43,8 @@ static bool close_apng(void *data, bool done, struct gb_error *err)
     if (writer == NULL) {
         return done;
     }
-    done = done && gb_apng_write(writer->apng, writer->output.path, err);
-    gb_apng_destroy(writer->apng);
+    done = done && gb_png_animation_write(writer->apng, writer->output.path, err);
+    gb_png_animation_destroy(writer->apng);
     g_free(writer);
     return done;
 }
@@ -56,7 +56,7 @@ static bool open_apng(void **out, const struct gb_frame_output *output,
     writer->output = *output;
     gb_packing_image_describe(&writer->texts, first, output->packing_image->preset);
     *out = writer;
-    return gb_apng_create(&writer->apng, output->count,
+    return gb_png_animation_create(&writer->apng, output->count,
                           gb_packing_image_alpha(output->packing_image),
                           writer->texts.text, writer->texts.count, err);
 }
@@ -68,7 +68,7 @@ static bool add_apng(void *data, const struct gb_image *image,
     (void)state;
     const int frame_ms = (int)lround(1000.0 / writer->output.frames_per_s);
     const bool last = number == writer->output.count;
-    return gb_apng_add(writer->apng, image,
+    return gb_png_animation_add(writer->apng, image,
                        last ? MAX(frame_ms, last_frame_ms) : frame_ms, err);
 }
 

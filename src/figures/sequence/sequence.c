@@ -6,7 +6,7 @@
 #include <glib.h>
 
 #include "base/file.h"
-#include "draw/mute_stderr.h"
+#include "draw/image/text.h"
 #include "figures/output_formats.h"
 #include "figures/provenance.h"
 #include "figures/sequence/frame_writer.h"
@@ -126,9 +126,9 @@ static bool render_all(struct job *job, struct gb_error *err)
 {
     bool done = set_common_scales(job, err);
     if (done) {
-        const int saved = gb_mute_stderr_begin();
+        const int saved = gb_text_mute_begin();
         done = gb_renderer_open(&job->packing_image->renderer, err);
-        gb_mute_stderr_end(saved);
+        gb_text_mute_end(saved);
     }
     for (guint k = 0; k < job->paths->len && done; k++) {
         done = render_frame(job, k, err);

@@ -1,5 +1,5 @@
-#ifndef GB_DRAW_STYLE_PICTURE_STYLE_H
-#define GB_DRAW_STYLE_PICTURE_STYLE_H
+#ifndef GB_DRAW_PICTURE_STYLE_H
+#define GB_DRAW_PICTURE_STYLE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,12 +31,12 @@ struct gb_picture_style_request {
     double cut_at;      /* fraction of the edge */
     bool cut_corner;    /* cuts away the octant nearest to the viewer */
     const struct gb_state *since; /* origin of displacements */
-    double low, high;   /* ends of the colour scale in its unit; equal: see the next */
-    bool ranged;        /* ends of the colour scale are given; else from the state */
+    double low, high; /* ends of the colour scale in its unit; equal: see the next */
+    bool ranged;      /* ends of the colour scale are given; else from the state */
     double range_si[2];
     const struct gb_palette_map *map; /* colours of values; NULL: viridis */
     bool log;                         /* logarithmic scale */
-    double max_force_n;           /* force of the thickest rod, N; 0: from the state */
+    double max_force_n; /* force of the thickest rod, N; 0: from the state */
 };
 
 /* All particles, coloured by coordination number. */
@@ -90,5 +90,34 @@ bool gb_picture_style_create(struct gb_picture_style **out, const struct gb_stat
 /* How far a point lies within what is cut away, d; negative outside. */
 double gb_picture_style_depth(const struct gb_picture_style *style, const double x[3]);
 void gb_picture_style_destroy(struct gb_picture_style *style); /* NULL is fine */
+
+/* "coordination", "pressure", ... into colour or force; "particles", "forces", "both";
+ * "z=0.5" or "z=0.5:3 d"; "corner" or "y=0.5".  Errors: GB_ERR_INPUT with what is
+ * accepted. */
+bool gb_picture_style_parse_colour(struct gb_picture_style_request *request,
+                                   const char *text, struct gb_error *err);
+
+bool gb_picture_style_parse_show(struct gb_picture_style_request *request,
+                                 const char *text, struct gb_error *err);
+
+bool gb_picture_style_parse_slice(struct gb_picture_style_request *request,
+                                  const char *text, struct gb_error *err);
+
+/* "0:200MPa" of the quantity that colours particles, with its unit, or "0:50nN" of forces:
+ * of the thickest rod.  After the colour. */
+bool gb_picture_style_parse_range(struct gb_picture_style_request *request,
+                                  const char *text, struct gb_error *err);
+
+bool gb_picture_style_parse_colormap(struct gb_picture_style_request *request,
+                                     const char *text, struct gb_error *err);
+
+/* Names of the scales of colours, separated by commas; g_free. */
+char *gb_picture_style_parse_colormaps(void);
+
+bool gb_picture_style_parse_cut(struct gb_picture_style_request *request,
+                                const char *text, struct gb_error *err);
+
+/* Radius of a rod, d, of a force over that of the thickest one. */
+double gb_picture_style_rod_radius(double ratio);
 
 #endif

@@ -1,7 +1,9 @@
-#ifndef GB_DRAW_STYLE_PICTURE_COLOURS_H
-#define GB_DRAW_STYLE_PICTURE_COLOURS_H
+#ifndef GB_DRAW_PICTURE_COLOURS_H
+#define GB_DRAW_PICTURE_COLOURS_H
 
-#include "draw/style/picture_style.h"
+#include <stddef.h>
+
+#include "draw/picture_style.h"
 #include "greenbody/dimension.h"
 
 /* The table of quantities that colour a picture (`--color`).  A quantity is a function and a
@@ -30,5 +32,9 @@ const struct gb_picture_colours_row *gb_picture_colours_table(void);
 const struct gb_picture_colours_row *gb_picture_colours_find(const char *name);
 /* Names of one kind, separated by commas; g_free. */
 char *gb_picture_colours_names(enum gb_picture_colours_kind kind);
+
+/* Colour of a value; the middle of a scale of one value. */
+void gb_picture_colours_at(const struct gb_picture_style_scale *scale, double value,
+                           uint8_t rgb[3]);
 
 #endif
