@@ -13,7 +13,7 @@
 #include "cli/output/json_output.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
-#include "figures/runs/compaction_series.h"
+#include "figures/compaction_series.h"
 #include "many/lab/compaction_file.h"
 
 enum { DIRECTORIES_MAX = 1000 };

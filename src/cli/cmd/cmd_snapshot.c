@@ -16,8 +16,7 @@
 #include "draw/picture_colours.h"
 #include "draw/picture_style.h"
 #include "figures/output_formats.h"
-#include "figures/provenance.h"
-#include "figures/sequence/sequence.h"
+#include "figures/sequence.h"
 #include "figures/states.h"
 #include "io/rundir_files.h"
 
@@ -130,7 +129,7 @@ static bool write_picture(const struct request *request,
 {
     struct gb_state *states[PATHS_MAX] = {NULL};
     struct gb_state *since = NULL;
-    char *preset = gb_provenance_preset(paths[0]);
+    char *preset = gb_states_preset(paths[0]);
     bool done =
         read_states(states, request, paths, err) &&
         (request->since == NULL || read_since(&since, request->since, paths[0], err));

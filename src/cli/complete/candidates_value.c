@@ -10,7 +10,8 @@
 
 static void add_figures(const struct gb_candidates *to)
 {
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row = NULL;
+    for (size_t k = 0; (row = gb_figures_at(k)) != NULL; k++) {
         gb_candidates_add(to, row->name, row->doc);
     }
 }
