@@ -85,7 +85,7 @@ static char *fit(const struct pen *pen, const char *line, double max_width, doub
     for (glong kept = g_utf8_strlen(line, -1);
          kept > 1 && width_of(pen, markup, *size) > max_width * (1.0 + 1e-9); kept--) {
         char *start = g_utf8_substring(line, 0, kept - 1);
-        char *cut = g_strconcat(g_strchomp(start), "\xe2\x80\xa6", NULL);
+        char *cut = g_strconcat(g_strchomp(start), "…", NULL);
         g_free(markup);
         markup = g_markup_escape_text(cut, -1);
         g_free(start);
@@ -551,8 +551,8 @@ static void draw_cells(const struct pen *pen, const struct gb_frame *bar,
             continue;
         }
         snprintf(label, sizeof label, "%s%d",
-                 k == last && scale->above    ? "\xe2\x89\xa5"
-                 : k == first && scale->below ? "\xe2\x89\xa4"
+                 k == last && scale->above    ? "≥"
+                 : k == first && scale->below ? "≤"
                                               : "",
                  k);
         write_line(pen, label, bar->left + bar->width + 0.5 * pen->unit, top + 0.5 * step,
@@ -620,8 +620,7 @@ static void draw_ticks(const struct pen *pen, const struct gb_frame *bar,
         char label[48];
         const double value = end == 0 ? scale->low : scale->high;
         const double magnitude = fabs(value);
-        snprintf(label, sizeof label, "%s%.4g", value < 0.0 ? "\xe2\x88\x92" : "",
-                 magnitude);
+        snprintf(label, sizeof label, "%s%.4g", value < 0.0 ? "−" : "", magnitude);
         draw_tick(pen, bar, end == 0 ? axis.from : axis.to, label);
     }
 }
@@ -722,6 +721,20 @@ static double largest(const struct pen *pen, const struct gb_picture_style *styl
                : gb_number_round_below(style->max_force_n * limit / thickest);
 }
 
+/* A quantity with its unit; the prefix micro as a Greek letter. */
+static void format_number(double value, enum gb_dimension dimension, int digits,
+                          char *text, size_t size)
+{
+    char plain[48];
+    gb_units_format_short(value, dimension, digits, plain, sizeof plain);
+    const char *micro = strstr(plain, " u");
+    if (micro != NULL) {
+        snprintf(text, size, "%.*s μ%s", (int)(micro - plain), plain, micro + 2);
+    } else {
+        snprintf(text, size, "%s", plain);
+    }
+}
+
 /* scale: pixels per d */
 static void draw_force_legend(const struct pen *pen, const struct gb_frame *frame,
                               const struct gb_picture_style *style, double scale)
@@ -741,8 +754,8 @@ static void draw_force_legend(const struct pen *pen, const struct gb_frame *fram
         const double ratio = force_n / style->max_force_n;
         const bool above = ratio >= 1.0 && style->forces_above;
         y += step;
-        gb_caption_number_format(force_n, GB_DIM_FORCE, 2, force, sizeof force);
-        snprintf(line, sizeof line, "%s%s", above ? "\xe2\x89\xa5 " : "", force);
+        format_number(force_n, GB_DIM_FORCE, 2, force, sizeof force);
+        snprintf(line, sizeof line, "%s%s", above ? "≥ " : "", force);
         set_foreground(pen);
         draw_rod(pen, frame->left, y, 2.0 * scale * gb_picture_style_rod_radius(ratio));
         draw_line(pen, frame, line, y);
@@ -750,23 +763,10 @@ static void draw_force_legend(const struct pen *pen, const struct gb_frame *fram
     }
 }
 
-void gb_caption_number_format(double value, enum gb_dimension dimension, int digits,
-                              char *text, size_t size)
-{
-    char plain[48];
-    gb_units_format_short(value, dimension, digits, plain, sizeof plain);
-    const char *micro = strstr(plain, " u");
-    if (micro != NULL) {
-        snprintf(text, size, "%.*s \xce\xbc%s", (int)(micro - plain), plain, micro + 2);
-    } else {
-        snprintf(text, size, "%s", plain);
-    }
-}
-
 double gb_caption_bar_length(double max_m, char *label, size_t size)
 {
     const double length = gb_number_round_below(max_m);
-    gb_caption_number_format(length, GB_DIM_LENGTH, 3, label, size);
+    format_number(length, GB_DIM_LENGTH, 3, label, size);
     return length;
 }
 
@@ -800,14 +800,13 @@ static void draw_point(const struct pen *pen, const struct gb_state *state, doub
     char words[160], symbols[96], pressure[48] = "";
     const double density = state->point.density;
     if (isfinite(state->point.p_pa)) {
-        gb_caption_number_format(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure,
-                                 sizeof pressure);
+        format_number(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
         snprintf(words, sizeof words, "relative density %.3f     pressure %s", density,
                  pressure);
-        snprintf(symbols, sizeof symbols, "\xcf\x81 %.3f   p %s", density, pressure);
+        snprintf(symbols, sizeof symbols, "ρ %.3f   p %s", density, pressure);
     } else {
         snprintf(words, sizeof words, "relative density %.3f", density);
-        snprintf(symbols, sizeof symbols, "\xcf\x81 %.3f", density);
+        snprintf(symbols, sizeof symbols, "ρ %.3f", density);
     }
     const char *const texts[] = {words, symbols, NULL};
     write_line_that_fits(pen, texts, x, y, 0.0, 1.0, max_width);
@@ -879,8 +878,8 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
     if (layout->unit <= 0.0) {
         return true;
     }
-    const struct gb_picture_style_scale scale = {
-        .title = "<i>f</i> / \xe2\x9f\xa8<i>f</i>\xe2\x9f\xa9", .high = reach};
+    const struct gb_picture_style_scale scale = {.title = "<i>f</i> / ⟨<i>f</i>⟩",
+                                                 .high = reach};
     const bool good = begin_pen(&pen, image, layout->unit, scene->background, err);
     if (good) {
         const double unit = layout->unit;
@@ -890,16 +889,9 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
         static const char *const titles[] = {"mean normal force by direction",
                                              "mean normal force", "forces", NULL};
         write_line_that_fits(&pen, titles, 1.4 * unit, 1.5 * unit, 0.0, 1.05, max_width);
-        gb_caption_number_format(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
-        snprintf(line, sizeof line,
-                 "\xe2\x9f\xa8"
-                 "f\xe2\x9f\xa9 = %s; reference ring: f / \xe2\x9f\xa8"
-                 "f\xe2\x9f\xa9 = 1",
-                 force);
-        snprintf(mean, sizeof mean,
-                 "\xe2\x9f\xa8"
-                 "f\xe2\x9f\xa9 = %s",
-                 force);
+        format_number(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
+        snprintf(line, sizeof line, "⟨f⟩ = %s; reference ring: f / ⟨f⟩ = 1", force);
+        snprintf(mean, sizeof mean, "⟨f⟩ = %s", force);
         const char *const texts[] = {line, mean, NULL};
         write_line_that_fits(&pen, texts, 1.4 * unit, image->height - 2.9 * unit, 0.0,
                              1.0, max_width);

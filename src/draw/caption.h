@@ -60,10 +60,6 @@ void gb_caption_load_word(const struct gb_scene *scene, int arrow, double unit,
 /* Lines of the legend; 0: the style has no forces. */
 int gb_caption_legend_lines(const struct gb_picture_style *style);
 
-/* A quantity with its unit; the prefix micro as a Greek letter. */
-void gb_caption_number_format(double value, enum gb_dimension dimension, int digits,
-                              char *text, size_t size);
-
 /* Largest of 1, 2, 5 x 10^k m that is at most `max_m`; label: its text. */
 double gb_caption_bar_length(double max_m, char *label, size_t size);
 

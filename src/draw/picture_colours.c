@@ -303,8 +303,7 @@ static bool colour_size(struct gb_picture_style *style, const struct gb_state *s
         value[i] =
             units_per_metre(state) * (2.0 * state->radius[i] * state->metre_per_length);
     }
-    style->scale.title =
-        uses_nanometres(state) ? "diameter (nm)" : "diameter (\xce\xbcm)";
+    style->scale.title = uses_nanometres(state) ? "diameter (nm)" : "diameter (μm)";
     const bool good =
         colour_values(style, value, FROM_DATA, units_per_metre(state), request, err);
     gb_alloc_free(value);
@@ -358,7 +357,7 @@ static bool colour_displacement(struct gb_picture_style *style,
         value[i] = units_per_metre(state) * displacement(&cell, state, request->since, i);
     }
     style->scale.title =
-        uses_nanometres(state) ? "displacement (nm)" : "displacement (\xce\xbcm)";
+        uses_nanometres(state) ? "displacement (nm)" : "displacement (μm)";
     const bool good =
         colour_values(style, value, FROM_ZERO, units_per_metre(state), request, err);
     gb_alloc_free(value);
@@ -408,11 +407,6 @@ static const struct gb_picture_colours_row table[] = {
      .force_class = by_bridge, .wall_class = wall_unbridged},
     {0},
 };
-
-const struct gb_picture_colours_row *gb_picture_colours_table(void)
-{
-    return table;
-}
 
 const struct gb_picture_colours_row *gb_picture_colours_find(const char *name)
 {

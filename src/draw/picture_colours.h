@@ -26,8 +26,6 @@ struct gb_picture_colours_row {
     int (*wall_class)(double normal); /* of a contact with a wall */
 };
 
-/* The last row has no name. */
-const struct gb_picture_colours_row *gb_picture_colours_table(void);
 /* NULL: no quantity of this name. */
 const struct gb_picture_colours_row *gb_picture_colours_find(const char *name);
 /* Names of one kind, separated by commas; g_free. */

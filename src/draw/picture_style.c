@@ -253,7 +253,8 @@ static void set_cuts(struct gb_picture_style *style, const struct gb_state *stat
     }
 }
 
-double gb_picture_style_depth(const struct gb_picture_style *style, const double x[3])
+/* How far a point lies within what is cut away, d; negative outside. */
+static double depth_in_cut(const struct gb_picture_style *style, const double x[3])
 {
     double depth = style->cuts > 0 ? INFINITY : -INFINITY;
     for (int k = 0; k < style->cuts; k++) {
@@ -268,7 +269,7 @@ static void set_hidden(struct gb_picture_style *style, const struct gb_state *st
 {
     for (size_t i = 0; i < style->count; i++) {
         const double *x = &state->position[3 * i];
-        const double depth = gb_picture_style_depth(style, x);
+        const double depth = depth_in_cut(style, x);
         const bool outside =
             request->slice_axis >= 0 && is_outside_slice(state, request, x);
         style->hidden[i] = outside || depth >= state->radius[i] ? GB_PICTURE_STYLE_HIDDEN

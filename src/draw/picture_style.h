@@ -87,8 +87,6 @@ struct gb_picture_style {
 bool gb_picture_style_create(struct gb_picture_style **out, const struct gb_state *state,
                              const struct gb_picture_style_request *request,
                              struct gb_error *err);
-/* How far a point lies within what is cut away, d; negative outside. */
-double gb_picture_style_depth(const struct gb_picture_style *style, const double x[3]);
 void gb_picture_style_destroy(struct gb_picture_style *style); /* NULL is fine */
 
 /* "coordination", "pressure", ... into colour or force; "particles", "forces", "both";

@@ -126,6 +126,15 @@ static void point_on(const struct walls *walls, double radius, double angle,
     gb_view_eye(&walls->scene->view, point, eye);
 }
 
+static void add_edge(struct gb_scene *scene, const double from[3], const double to[3])
+{
+    float *edge = scene->edge[scene->edge_count++];
+    for (int k = 0; k < 3; k++) {
+        edge[k] = (float)from[k];
+        edge[3 + k] = (float)to[k];
+    }
+}
+
 static void add_ring(const struct walls *walls, double radius, double height)
 {
     for (int k = 0; k < GB_SCENE_RING; k++) {
@@ -133,7 +142,7 @@ static void add_ring(const struct walls *walls, double radius, double height)
         for (int j = 0; j < 2; j++) {
             point_on(walls, radius, 2.0 * M_PI * (k + j) / GB_SCENE_RING, height, end[j]);
         }
-        gb_scene_add_edge(walls->scene, end[0], end[1]);
+        add_edge(walls->scene, end[0], end[1]);
     }
 }
 
@@ -154,7 +163,7 @@ static void add_outline(const struct walls *walls, const struct surface *surface
         for (int j = 0; j < 2; j++) {
             point_on(walls, surface->radius[j], angle, surface->height[j], end[j]);
         }
-        gb_scene_add_edge(walls->scene, end[0], end[1]);
+        add_edge(walls->scene, end[0], end[1]);
     }
 }
 
@@ -450,15 +459,6 @@ static void set_rods(struct gb_scene *scene, const struct gb_picture_style *styl
     }
 }
 
-void gb_scene_add_edge(struct gb_scene *scene, const double from[3], const double to[3])
-{
-    float *edge = scene->edge[scene->edge_count++];
-    for (int k = 0; k < 3; k++) {
-        edge[k] = (float)from[k];
-        edge[3 + k] = (float)to[k];
-    }
-}
-
 /* Corner of the box: bit k stands for edge vector k. */
 static void set_corner(const struct gb_state *state, int corner, double point[3])
 {
@@ -484,7 +484,7 @@ static void set_edges(struct gb_scene *scene, const struct gb_state *state)
             set_corner(state, other, end[1]);
             gb_view_eye(&scene->view, end[0], eye[0]);
             gb_view_eye(&scene->view, end[1], eye[1]);
-            gb_scene_add_edge(scene, eye[0], eye[1]);
+            add_edge(scene, eye[0], eye[1]);
         }
     }
 }

@@ -60,9 +60,6 @@ bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
                     struct gb_error *err);
 void gb_scene_destroy(struct gb_scene *scene); /* NULL is fine */
 
-/* Adds an edge between two points in eye coordinates. */
-void gb_scene_add_edge(struct gb_scene *scene, const double from[3], const double to[3]);
-
 /* sRGB of the background, and of text and lines on it. */
 void gb_scene_background(enum gb_background background, uint8_t rgb[3]);
 void gb_scene_foreground(enum gb_background background, uint8_t rgb[3]);

@@ -1,3 +1,4 @@
+/* The page of `greenbody card`: HTML and Markdown with its figures. */
 #include "figures/card_page.h"
 
 #include <errno.h>

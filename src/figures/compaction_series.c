@@ -137,9 +137,8 @@ static void draw_powder(struct gb_series *series, const struct gb_compaction_ser
     for (size_t i = 0; i < one->fits.fitted && drawn < most; i++) {
         if (is_drawn(&one->fits, i)) {
             const struct gb_compaction_fit *row = &one->fits.fit[i];
-            char *label = g_strdup_printf("%s, \xce\x94"
-                                          "AICc %.0f",
-                                          title_of(row->equation), row->delta);
+            char *label =
+                g_strdup_printf("%s, ΔAICc %.0f", title_of(row->equation), row->delta);
             drawn++;
             draw_equation(series, one, number, i, pressure, most > 1 ? (int)drawn : first,
                           most > 1 ? label : title_of(row->equation));

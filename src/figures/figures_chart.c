@@ -1,3 +1,4 @@
+/* Figures of the tables of `greenbody chart`: accuracy against cost. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,16 +22,15 @@ struct chart_columns_request {
 };
 
 /* "relaxer, N = particles" of a row, as Pango markup. */
-enum { GB_CHART_COLUMNS_NAME = 80 };
+enum { NAME_LENGTH = 80 };
 
 /* Calls draw with the first row of every kind. */
-typedef void gb_chart_columns_draw(struct gb_series *series,
-                                   const struct chart_columns *chart, size_t first,
-                                   int style);
+typedef void chart_draw(struct gb_series *series, const struct chart_columns *chart,
+                        size_t first, int style);
 
-static bool chart_columns_find(const struct chart_columns *chart,
-                               const struct chart_columns_request *request, size_t count,
-                               struct gb_error *err)
+static bool find_column(const struct chart_columns *chart,
+                        const struct chart_columns_request *request, size_t count,
+                        struct gb_error *err)
 {
     bool good = true;
     for (size_t k = 0; k < count && good; k++) {
@@ -41,8 +41,8 @@ static bool chart_columns_find(const struct chart_columns *chart,
 }
 
 /* Reads the table of the one directory or file in input->words.  Errors: GB_ERR_INPUT. */
-static bool chart_columns_read(struct chart_columns *chart,
-                               const struct gb_figures_input *input, struct gb_error *err)
+static bool read_chart(struct chart_columns *chart, const struct gb_figures_input *input,
+                       struct gb_error *err)
 {
     const char *source = input->words[0];
     if (source == NULL || input->words[1] != NULL) {
@@ -55,32 +55,31 @@ static bool chart_columns_read(struct chart_columns *chart,
     const bool good = gb_table_read(&chart->table, path, "relaxer", err);
     g_free(path);
     const struct chart_columns_request request[] = {{"particles", &chart->particles}};
-    return good && chart_columns_find(chart, request, G_N_ELEMENTS(request), err);
+    return good && find_column(chart, request, G_N_ELEMENTS(request), err);
 }
 
 /* Whether two rows have one relaxer and particle number. */
-static bool chart_columns_same_kind(const struct chart_columns *chart, size_t a, size_t b)
+static bool same_kind(const struct chart_columns *chart, size_t a, size_t b)
 {
     return chart->particles[a] == chart->particles[b] &&
            strcmp(gb_table_word(chart->table, a), gb_table_word(chart->table, b)) == 0;
 }
 
-static void chart_columns_name(const struct chart_columns *chart, size_t row,
-                               char label[GB_CHART_COLUMNS_NAME])
+static void name_row(const struct chart_columns *chart, size_t row,
+                     char label[NAME_LENGTH])
 {
-    snprintf(label, GB_CHART_COLUMNS_NAME, "%.40s, <i>N</i> = %g",
-             gb_table_word(chart->table, row), chart->particles[row]);
+    snprintf(label, NAME_LENGTH, "%.40s, <i>N</i> = %g", gb_table_word(chart->table, row),
+             chart->particles[row]);
 }
 
-static void chart_columns_each(struct gb_series *series,
-                               const struct chart_columns *chart,
-                               gb_chart_columns_draw *draw)
+static void for_each_kind(struct gb_series *series, const struct chart_columns *chart,
+                          chart_draw *draw)
 {
     int style = 0;
     for (size_t i = 0; i < gb_table_rows(chart->table); i++) {
         bool seen = false;
         for (size_t k = 0; k < i && !seen; k++) {
-            seen = chart_columns_same_kind(chart, k, i);
+            seen = same_kind(chart, k, i);
         }
         if (!seen) {
             draw(series, chart, i, style++);
@@ -92,18 +91,18 @@ static void chart_columns_each(struct gb_series *series,
 static void draw_points(struct gb_series *series, const struct chart_columns *chart,
                         size_t first, int style)
 {
-    char label[GB_CHART_COLUMNS_NAME];
+    char label[NAME_LENGTH];
     double *cost = gb_series_column(series, "cpu_%d_s", style + 1);
     double *bound = gb_series_column(series, "bound_%d", style + 1);
     size_t filled = 0;
     for (size_t k = first; k < gb_table_rows(chart->table); k++) {
-        if (chart_columns_same_kind(chart, first, k) && isfinite(chart->bound[k])) {
+        if (same_kind(chart, first, k) && isfinite(chart->bound[k])) {
             cost[filled] = chart->cpu_s[k];
             bound[filled++] = 100.0 * chart->bound[k];
         }
     }
     if (filled > 0) {
-        chart_columns_name(chart, first, label);
+        name_row(chart, first, label);
         gb_series_draw(series, cost, bound, NULL, GB_FIGURE_POINTS, style, label);
     }
 }
@@ -146,10 +145,10 @@ static void draw_chosen(struct gb_series *series, const struct chart_columns *ch
     }
 }
 
-static void fill(struct gb_series *series, const struct chart_columns *chart)
+static void fill_chart(struct gb_series *series, const struct chart_columns *chart)
 {
     draw_front(series, chart);
-    chart_columns_each(series, chart, draw_points);
+    for_each_kind(series, chart, draw_points);
     draw_chosen(series, chart);
     gb_series_caption(series,
                       "Maximum over the pressures of |error| + standard error. Thin "
@@ -165,11 +164,11 @@ static bool compute_chart(struct gb_series *series, const struct gb_figures_inpu
                                                     {"cpu_s", &chart.cpu_s},
                                                     {"front", &chart.front},
                                                     {"chosen", &chart.chosen}};
-    const bool good = chart_columns_read(&chart, input, err) &&
-                      chart_columns_find(&chart, request, G_N_ELEMENTS(request), err);
+    const bool good = read_chart(&chart, input, err) &&
+                      find_column(&chart, request, G_N_ELEMENTS(request), err);
     if (good) {
         gb_series_init(series, gb_table_rows(chart.table));
-        fill(series, &chart);
+        fill_chart(series, &chart);
     }
     gb_table_destroy(chart.table);
     return good;
@@ -275,13 +274,13 @@ static void draw_scatter(struct gb_series *series, const struct chart_columns *c
 static void draw_errors(struct gb_series *series, const struct chart_columns *chart,
                         size_t first, int style)
 {
-    char label[GB_CHART_COLUMNS_NAME];
+    char label[NAME_LENGTH];
     double *cost = gb_series_column(series, "evaluations_%d", style + 1);
     double *error = gb_series_column(series, "error_%d_points", style + 1);
     double *error_se = gb_series_column(series, "error_%d_se_points", style + 1);
     size_t filled = 0;
     for (size_t k = first; k < gb_table_rows(chart->table); k++) {
-        if (chart_columns_same_kind(chart, first, k) && isfinite(chart->error[k]) &&
+        if (same_kind(chart, first, k) && isfinite(chart->error[k]) &&
             chart->reference[k] != 1.0) {
             cost[filled] = chart->evaluations[k];
             error_se[filled] = 100.0 * chart->error_se[k];
@@ -289,7 +288,7 @@ static void draw_errors(struct gb_series *series, const struct chart_columns *ch
         }
     }
     if (filled > 0) {
-        chart_columns_name(chart, first, label);
+        name_row(chart, first, label);
         gb_series_draw(series, cost, error, error_se, GB_FIGURE_POINTS, style, label);
     }
 }
@@ -307,7 +306,7 @@ static bool find_errors(struct chart_columns *chart, const char *pressure,
                                                     {error, &chart->error},
                                                     {error_se, &chart->error_se},
                                                     {scatter, &chart->scatter}};
-    const bool good = chart_columns_find(chart, request, G_N_ELEMENTS(request), err);
+    const bool good = find_column(chart, request, G_N_ELEMENTS(request), err);
     g_free(error);
     g_free(error_se);
     g_free(scatter);
@@ -323,7 +322,7 @@ static void fill_errors(struct gb_series *series, const struct chart_columns *ch
         "error.",
         pressure_mpa);
     draw_scatter(series, chart);
-    chart_columns_each(series, chart, draw_errors);
+    for_each_kind(series, chart, draw_errors);
 }
 
 /* Density error at one pressure against the force evaluations of one cell. */
@@ -332,7 +331,7 @@ static bool compute_chart_error(struct gb_series *series,
                                 struct gb_error *err)
 {
     struct chart_columns chart = {0};
-    bool good = chart_columns_read(&chart, input, err);
+    bool good = read_chart(&chart, input, err);
     const char *pressure = good ? find_pressure(&chart, input->pressure_pa) : NULL;
     if (good && !pressure) {
         good = refuse_pressure(&chart, input->pressure_pa, err);
@@ -352,8 +351,8 @@ struct columns {
         *chosen;
 };
 
-static bool find(struct columns *columns, const struct gb_table *table,
-                 struct gb_error *err)
+static bool find_quantity(struct columns *columns, const struct gb_table *table,
+                          struct gb_error *err)
 {
     const struct {
         const char *name;
@@ -374,8 +373,9 @@ static bool find(struct columns *columns, const struct gb_table *table,
 }
 
 /* Settings of which `which` (NULL: any) is 1. */
-static void draw(struct gb_series *series, const struct columns *c, size_t rows,
-                 const double *which, int style, const char *name, const char *label)
+static void draw_quantity(struct gb_series *series, const struct columns *c, size_t rows,
+                          const double *which, int style, const char *name,
+                          const char *label)
 {
     double *cost = gb_series_column(series, "%scost", name);
     double *error = gb_series_column(series, "%serror_points", name);
@@ -432,8 +432,8 @@ static bool compute_chart_quantity(struct gb_series *series,
                             "chart-quantity: expected one NAME.csv of `greenbody chart "
                             "--quantity NAME`");
     }
-    const bool good =
-        gb_table_read(&table, input->words[0], "quantity", err) && find(&c, table, err);
+    const bool good = gb_table_read(&table, input->words[0], "quantity", err) &&
+                      find_quantity(&c, table, err);
     if (good) {
         const size_t rows = gb_table_rows(table);
         gb_series_init(series, MAX(rows, 2));
@@ -442,9 +442,11 @@ static bool compute_chart_quantity(struct gb_series *series,
                           "interval.",
                           rows > 0 ? gb_table_word(table, 0) : "");
         draw_interval(series, &c, rows);
-        draw(series, &c, rows, NULL, 0, "", "settings");
-        draw(series, &c, rows, c.standard, gb_figure_black(1), "default_", "default");
-        draw(series, &c, rows, c.chosen, gb_figure_black(5), "chosen_", "recommended");
+        draw_quantity(series, &c, rows, NULL, 0, "", "settings");
+        draw_quantity(series, &c, rows, c.standard, gb_figure_black(1), "default_",
+                      "default");
+        draw_quantity(series, &c, rows, c.chosen, gb_figure_black(5), "chosen_",
+                      "recommended");
     }
     gb_table_destroy(table);
     return good;

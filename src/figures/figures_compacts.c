@@ -1,3 +1,4 @@
+/* Figures of the tables of `greenbody card`, `yield`, `strength` and `moduli`. */
 #include <math.h>
 #include <string.h>
 
@@ -15,9 +16,9 @@
  *
  * columns  `count` names; their numbers go to column
  * Errors: GB_ERR_INPUT (not one word, no such file or column), as gb_table_read. */
-static bool compact_table_read(struct gb_table **table,
-                               const struct gb_figures_input *input, const char *command,
-                               const char *file, const char *words, struct gb_error *err)
+static bool read_compacts(struct gb_table **table, const struct gb_figures_input *input,
+                          const char *command, const char *file, const char *words,
+                          struct gb_error *err)
 {
     if (input->words[0] == NULL || input->words[1] != NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -29,9 +30,8 @@ static bool compact_table_read(struct gb_table **table,
     return good;
 }
 
-static bool compact_table_columns(const struct gb_table *table, const char *const *names,
-                                  size_t count, const double **column,
-                                  struct gb_error *err)
+static bool find_columns(const struct gb_table *table, const char *const *names,
+                         size_t count, const double **column, struct gb_error *err)
 {
     for (size_t k = 0; k < count; k++) {
         column[k] = gb_table_column(table, names[k], err);
@@ -56,9 +56,9 @@ static bool is_among(const double *value, size_t count, double wanted)
  *
  * where  NULL: of all rows; else of those in which this column is `equal`
  * Returns how many there are. */
-static size_t compact_table_distinct(const struct gb_table *table, const double *column,
-                                     const double *where, double equal, double *value,
-                                     size_t most)
+static size_t distinct_values(const struct gb_table *table, const double *column,
+                              const double *where, double equal, double *value,
+                              size_t most)
 {
     size_t count = 0;
     for (size_t i = 0; i < gb_table_rows(table) && count < most; i++) {
@@ -125,7 +125,7 @@ static void draw_surface(struct gb_series *series, const struct gb_cap *cap, dou
         p[i] = from + (to - from) * share;
         q[i] = fmax(0.0, gb_cap_height(cap, p[i]));
     }
-    g_snprintf(label, sizeof label, "<i>\xcf\x81</i> = %.3f", density);
+    g_snprintf(label, sizeof label, "<i>ρ</i> = %.3f", density);
     gb_series_draw(series, p, q, NULL, GB_FIGURE_LINE, style, label);
 }
 
@@ -261,8 +261,8 @@ struct surfaces {
 static double chosen_offset(const struct surfaces *surfaces)
 {
     double offset[OFFSETS];
-    const size_t count = compact_table_distinct(
-        surfaces->points, surfaces->column[OFFSET], NULL, 0.0, offset, OFFSETS);
+    const size_t count = distinct_values(surfaces->points, surfaces->column[OFFSET], NULL,
+                                         0.0, offset, OFFSETS);
     return count > 0 ? offset[count / 2] : (double)NAN;
 }
 
@@ -284,7 +284,7 @@ static bool read_ellipse(struct gb_ellipse *ellipse, const struct surfaces *surf
 {
     static const char *const wanted[3] = {"density", "offset_percent", "value"};
     const double *column[3];
-    if (!compact_table_columns(surfaces->fit, wanted, 3, column, err)) {
+    if (!find_columns(surfaces->fit, wanted, 3, column, err)) {
         return false;
     }
     *ellipse =
@@ -306,7 +306,7 @@ static void draw_ellipse(struct gb_series *series, const struct gb_ellipse *elli
         p[i] = ellipse->centre_p + ellipse->half_p * cos(angle);
         q[i] = ellipse->centre_q + ellipse->half_q * sin(angle);
     }
-    g_snprintf(label, sizeof label, "<i>\xcf\x81</i> = %.3g", density);
+    g_snprintf(label, sizeof label, "<i>ρ</i> = %.3g", density);
     gb_series_draw(series, p, q, NULL, GB_FIGURE_LINE, style, label);
 }
 
@@ -322,7 +322,7 @@ static void add_arrow(double *const at[2], size_t row, const double from[2],
 }
 
 /* Points of one density with flow and normal; returns how many. */
-static size_t yield_draw_points(struct gb_series *series, const struct surfaces *surfaces,
+static size_t draw_yield_points(struct gb_series *series, const struct surfaces *surfaces,
                                 const struct gb_ellipse *ellipse, double density,
                                 int style)
 {
@@ -361,14 +361,14 @@ static size_t yield_draw_points(struct gb_series *series, const struct surfaces 
     return filled;
 }
 
-static bool draw(struct gb_series *series, struct surfaces *surfaces,
-                 struct gb_error *err)
+static bool draw_yield(struct gb_series *series, struct surfaces *surfaces,
+                       struct gb_error *err)
 {
     struct gb_ellipse ellipse[SURFACES];
     surfaces->offset = chosen_offset(surfaces);
-    surfaces->count = compact_table_distinct(surfaces->points, surfaces->column[DENSITY],
-                                             surfaces->column[OFFSET], surfaces->offset,
-                                             surfaces->density, SURFACES);
+    surfaces->count = distinct_values(surfaces->points, surfaces->column[DENSITY],
+                                      surfaces->column[OFFSET], surfaces->offset,
+                                      surfaces->density, SURFACES);
     for (size_t k = 0; k < surfaces->count; k++) {
         if (!read_ellipse(&ellipse[k], surfaces, surfaces->density[k], err)) {
             return false;
@@ -381,7 +381,7 @@ static bool draw(struct gb_series *series, struct surfaces *surfaces,
     series->equal_scales = true;
     for (size_t k = 0; k < surfaces->count; k++) {
         draw_ellipse(series, &ellipse[k], surfaces->density[k], (int)k);
-        yield_draw_points(series, surfaces, &ellipse[k], surfaces->density[k], (int)k);
+        draw_yield_points(series, surfaces, &ellipse[k], surfaces->density[k], (int)k);
     }
     gb_series_caption(
         series,
@@ -397,14 +397,13 @@ static bool compute_yield(struct gb_series *series, const struct gb_figures_inpu
 {
     struct gb_table *points = NULL, *fit = NULL;
     struct surfaces surfaces = {.arrow = 0.0};
-    bool good =
-        compact_table_read(&points, input, "yield", "yield.csv", NULL, err) &&
-        compact_table_read(&fit, input, "yield", "yield_fit.csv", "quantity", err) &&
-        compact_table_columns(points, names, COLUMNS, surfaces.column, err);
+    bool good = read_compacts(&points, input, "yield", "yield.csv", NULL, err) &&
+                read_compacts(&fit, input, "yield", "yield_fit.csv", "quantity", err) &&
+                find_columns(points, names, COLUMNS, surfaces.column, err);
     if (good) {
         surfaces.points = points;
         surfaces.fit = fit;
-        good = draw(series, &surfaces, err);
+        good = draw_yield(series, &surfaces, err);
     }
     gb_table_destroy(points);
     gb_table_destroy(fit);
@@ -440,9 +439,9 @@ static bool read_tables(struct strength_tables *tables,
                                 DIRECTORIES);
         }
         struct gb_table **table = &tables->table[tables->count];
-        if (!compact_table_read(table, &one, "strength", "strength.csv", "test", err) ||
-            !compact_table_columns(*table, strength_names, STRENGTH_COLUMNS,
-                                   tables->column[tables->count], err)) {
+        if (!read_compacts(table, &one, "strength", "strength.csv", "test", err) ||
+            !find_columns(*table, strength_names, STRENGTH_COLUMNS,
+                          tables->column[tables->count], err)) {
             return false;
         }
     }
@@ -514,7 +513,7 @@ static void draw_test(struct gb_series *series, const struct strength_tables *ta
     g_free(label);
 }
 
-static void strength_draw(struct gb_series *series, const struct strength_tables *tables,
+static void draw_strength(struct gb_series *series, const struct strength_tables *tables,
                           char *const *words)
 {
     const bool by_pressure = have_pressures(tables);
@@ -525,7 +524,7 @@ static void strength_draw(struct gb_series *series, const struct strength_tables
     gb_series_init(series, rows);
     gb_series_axes(series, by_pressure ? "pressure_MPa" : "density",
                    by_pressure ? "pressure of pressing <i>p</i> (MPa)"
-                               : "relative density after unloading <i>\xcf\x81</i>",
+                               : "relative density after unloading <i>ρ</i>",
                    NULL, NULL);
     series->y.low = 0.0;
     for (size_t k = 0; k < tables->count; k++) {
@@ -544,7 +543,7 @@ static bool compute_strength(struct gb_series *series,
     struct strength_tables tables = {.count = 0};
     const bool good = read_tables(&tables, input, err);
     if (good) {
-        strength_draw(series, &tables, input->words);
+        draw_strength(series, &tables, input->words);
     }
     free_tables(&tables);
     return good;
@@ -555,23 +554,16 @@ static bool compute_strength(struct gb_series *series,
 
 enum { CELLS = 64, MARKS = 64 };
 
-enum {
-    STRENGTH_CURVES_PRESSURE,
-    PRESSED_DENSITY,
-    CELL,
-    STRAIN,
-    STRESS,
-    STRENGTH_CURVES_COLUMNS
-};
+enum { CURVE_PRESSURE, PRESSED_DENSITY, CELL, STRAIN, STRESS, CURVE_COLUMNS };
 
-static const char *const strength_curves_names[STRENGTH_CURVES_COLUMNS] = {
+static const char *const curve_names[CURVE_COLUMNS] = {
     "pressure_MPa", "pressed_density", "cell", "strain_percent", "stress_MPa"};
 
-/* The compact whose tests are drawn: the column that strength_curves_names it and its value there. */
+/* The compact whose tests are drawn: the column that curve_names it and its value there. */
 struct chosen {
     const struct gb_table *table;
-    const double *column[STRENGTH_CURVES_COLUMNS];
-    int by; /* STRENGTH_CURVES_PRESSURE or PRESSED_DENSITY */
+    const double *column[CURVE_COLUMNS];
+    int by; /* CURVE_PRESSURE or PRESSED_DENSITY */
     double value;
 };
 
@@ -587,7 +579,7 @@ static bool read_at(struct chosen *chosen, const char *at, double *wanted,
                             "= 0.5'",
                             at);
     }
-    chosen->by = points.point[0].by_density ? PRESSED_DENSITY : STRENGTH_CURVES_PRESSURE;
+    chosen->by = points.point[0].by_density ? PRESSED_DENSITY : CURVE_PRESSURE;
     *wanted = points.point[0].value * (points.point[0].by_density ? 1.0 : 1e-6);
     return true;
 }
@@ -597,8 +589,8 @@ static bool take_value(struct chosen *chosen, double wanted, GString *all)
 {
     double value[MARKS];
     bool found = false;
-    const size_t count = compact_table_distinct(chosen->table, chosen->column[chosen->by],
-                                                NULL, 0.0, value, MARKS);
+    const size_t count = distinct_values(chosen->table, chosen->column[chosen->by], NULL,
+                                         0.0, value, MARKS);
     for (size_t k = 0; k < count; k++) {
         g_string_append_printf(all, "%s%g", k > 0 ? ", " : "", value[k]);
         if (isfinite(wanted) ? fabs(value[k] - wanted) <= 1e-6 * wanted
@@ -614,7 +606,7 @@ static bool take_value(struct chosen *chosen, double wanted, GString *all)
 static bool choose(struct chosen *chosen, const char *at, struct gb_error *err)
 {
     double wanted = NAN;
-    chosen->by = STRENGTH_CURVES_PRESSURE;
+    chosen->by = CURVE_PRESSURE;
     if (at != NULL && !read_at(chosen, at, &wanted, err)) {
         return false;
     }
@@ -626,8 +618,8 @@ static bool choose(struct chosen *chosen, const char *at, struct gb_error *err)
     }
     if (!found) {
         gb_error_set(err, GB_ERR_INPUT, "%.300s: no compact of %s %g; accepted %s",
-                     gb_table_path(chosen->table), strength_curves_names[chosen->by],
-                     wanted, all->len > 0 ? all->str : "none of these");
+                     gb_table_path(chosen->table), curve_names[chosen->by], wanted,
+                     all->len > 0 ? all->str : "none of these");
     }
     g_string_free(all, TRUE);
     return found;
@@ -685,16 +677,15 @@ static bool draw_mean(struct gb_series *series, const struct gb_average_curve *c
     return good;
 }
 
-static bool strength_curves_draw_test(struct gb_series *series,
-                                      const struct chosen *chosen, int style,
-                                      struct gb_error *err)
+static bool draw_curves_of_test(struct gb_series *series, const struct chosen *chosen,
+                                int style, struct gb_error *err)
 {
     double cell[CELLS];
     struct gb_average_curve curves[CELLS];
     const char *test = gb_strength_options_tests[style].name;
     const size_t count =
-        compact_table_distinct(chosen->table, chosen->column[CELL],
-                               chosen->column[chosen->by], chosen->value, cell, CELLS);
+        distinct_values(chosen->table, chosen->column[CELL], chosen->column[chosen->by],
+                        chosen->value, cell, CELLS);
     size_t drawn = 0;
     for (size_t c = 0; c < count; c++) {
         draw_cell(series, chosen, test, cell[c], style, &curves[drawn]);
@@ -703,19 +694,19 @@ static bool strength_curves_draw_test(struct gb_series *series,
     return drawn == 0 || draw_mean(series, curves, drawn, test, style, err);
 }
 
-static bool strength_curves_draw(struct gb_series *series, const struct chosen *chosen,
+static bool draw_strength_curves(struct gb_series *series, const struct chosen *chosen,
                                  struct gb_error *err)
 {
     gb_series_init(series, gb_table_rows(chosen->table));
     for (int test = 0; test < GB_STRENGTH_TESTS; test++) {
-        if (!strength_curves_draw_test(series, chosen, test, err)) {
+        if (!draw_curves_of_test(series, chosen, test, err)) {
             return false;
         }
     }
     gb_series_caption(series,
-                      chosen->by == STRENGTH_CURVES_PRESSURE ? "Pressed to %g MPa."
-                                                             : "Pressed to the "
-                                                               "density %g.",
+                      chosen->by == CURVE_PRESSURE ? "Pressed to %g MPa."
+                                                   : "Pressed to the "
+                                                     "density %g.",
                       chosen->value);
     gb_series_caption(series,
                       "Pale: each cell; lines: their mean as far as all cells go, "
@@ -729,13 +720,12 @@ static bool compute_strength_curves(struct gb_series *series,
 {
     struct gb_table *table = NULL;
     struct chosen chosen = {.value = NAN};
-    bool good = compact_table_read(&table, input, "strength", "strength_curves.csv",
-                                   "test", err) &&
-                compact_table_columns(table, strength_curves_names,
-                                      STRENGTH_CURVES_COLUMNS, chosen.column, err);
+    bool good =
+        read_compacts(&table, input, "strength", "strength_curves.csv", "test", err) &&
+        find_columns(table, curve_names, CURVE_COLUMNS, chosen.column, err);
     chosen.table = table;
     good = good && choose(&chosen, input->at, err) &&
-           strength_curves_draw(series, &chosen, err);
+           draw_strength_curves(series, &chosen, err);
     gb_table_destroy(table);
     return good;
 }
@@ -873,7 +863,7 @@ static bool draw_source(struct gb_series *series, const struct source *source, i
     return true;
 }
 
-static bool moduli_draw(struct gb_series *series, const struct gb_figures_input *input,
+static bool draw_moduli(struct gb_series *series, const struct gb_figures_input *input,
                         const struct quantity *quantity, struct gb_error *err)
 {
     struct source source[TABLES_MAX] = {{NULL, NULL}};
@@ -909,10 +899,10 @@ static bool compute_moduli(struct gb_series *series, const struct gb_figures_inp
         {"G_GPa", "shear modulus <i>G</i>", false},
         {"nu", "", true},
         {NULL, NULL, false}};
-    if (!moduli_draw(series, input, averages, err)) {
+    if (!draw_moduli(series, input, averages, err)) {
         return false;
     }
-    series->below_y.label = "<i>\xce\xbd</i>";
+    series->below_y.label = "<i>ν</i>";
     series->below_y.name = "nu";
     gb_series_caption(series, "Averages of Hill; bars: one standard error.");
     return true;
@@ -930,7 +920,7 @@ static bool compute_moduli_axial(struct gb_series *series,
         {"axial_C13_GPa", "<i>C</i><sub>13</sub>", false},
         {"axial_C12_GPa", "<i>C</i><sub>12</sub>", false},
         {NULL, NULL, false}};
-    if (!moduli_draw(series, input, constants, err)) {
+    if (!draw_moduli(series, input, constants, err)) {
         return false;
     }
     gb_series_caption(series, "Axis along <i>z</i>; bars: one standard error.");
@@ -958,13 +948,12 @@ const struct gb_figures_row gb_figures_compacts_rows[] = {
      .y = {.name = "q_MPa", .label = "deviatoric stress <i>q</i> (MPa)"},
      .compute = compute_yield},
     {"strength", "strength after unloading against pressing, from greenbody strength", "",
-     GB_FIGURES_TABLE,
-     .y = {.name = "strength_MPa", .label = "strength <i>\xcf\x83</i> (MPa)"},
+     GB_FIGURES_TABLE, .y = {.name = "strength_MPa", .label = "strength <i>σ</i> (MPa)"},
      .compute = compute_strength},
     {"strength-curves", "stress against strain of the tests of greenbody strength", "",
      GB_FIGURES_TABLE, .options = GB_FIGURES_AT,
-     .x = {.name = "strain_percent", .label = "strain <i>\xce\xb5</i> (%)"},
-     .y = {.name = "stress_MPa", .label = "stress <i>\xcf\x83</i> (MPa)"},
+     .x = {.name = "strain_percent", .label = "strain <i>ε</i> (%)"},
+     .y = {.name = "stress_MPa", .label = "stress <i>σ</i> (MPa)"},
      .compute = compute_strength_curves},
     {"moduli", "Young's, bulk, shear modulus and Poisson's ratio, of greenbody moduli",
      "", GB_FIGURES_TABLE, .x = GB_FIGURES_DENSITY_AXIS, .y = MODULUS_AXIS,

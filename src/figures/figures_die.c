@@ -1,3 +1,4 @@
+/* Figures of dies: poured beds, pressing, the full cycle, and profiles of the compact. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
@@ -19,8 +20,8 @@
 /* Measures of a state in a die over height and radius. */
 
 /* Errors: GB_ERR_INPUT unless the state is of a die. */
-static bool die_profile_check(const struct gb_state *state, const char *figure,
-                              struct gb_error *err)
+static bool check_die(const struct gb_state *state, const char *figure,
+                      struct gb_error *err)
 {
     return state->die_radius > 0.0 ||
            gb_error_set(err, GB_ERR_INPUT,
@@ -29,8 +30,8 @@ static bool die_profile_check(const struct gb_state *state, const char *figure,
 
 /* Density over rings of the bore and bands of the height of the powder, or of what the
  * punch leaves; values as of gb_density_map_fill. */
-static struct gb_density_map die_profile_density(const struct gb_state *state, int rings,
-                                                 int bands, double *density)
+static struct gb_density_map find_density_map(const struct gb_state *state, int rings,
+                                              int bands, double *density)
 {
     const struct gb_density_map map = {.rings = rings,
                                        .bands = bands,
@@ -45,7 +46,7 @@ static struct gb_density_map die_profile_density(const struct gb_state *state, i
 
 /* Mean radial pressure on the wall in bands of the powder's height, MPa; NaN where the
  * open end of the bore lies below.  False when the state has no contacts with walls. */
-static bool die_profile_wall(const struct gb_state *state, int bands, double *pressure)
+static bool wall_profile(const struct gb_state *state, int bands, double *pressure)
 {
     const double height = state->cell[2];
     const double area = 2.0 * M_PI * state->die_radius * height / bands;
@@ -161,9 +162,9 @@ static void draw_statistics(struct gb_series *series, const struct beds *beds,
     }
     gb_series_draw(series, x, line, band, GB_FIGURE_LINE, beds->style, NULL);
     char number[GB_NUMBER_ERROR_MAX];
-    gb_series_caption(series, "%s: %s.", beds->title,
-                      gb_number_error(mean, count > 1 ? deviation : (double)NAN, 2,
-                                      " \xc2\xb1 ", number));
+    gb_series_caption(
+        series, "%s: %s.", beds->title,
+        gb_number_error(mean, count > 1 ? deviation : (double)NAN, 2, " ± ", number));
 }
 
 static void draw_beds(struct gb_series *series, const struct beds *beds, size_t count)
@@ -320,15 +321,15 @@ static void measure(struct gb_series *series, const struct gb_state *state, doub
     gb_series_column(series, "central_density")[0] = central;
     gb_series_caption(series,
                       "Particles cut by a plane through the axis. Relative density: "
-                      "specimen %.4f, sphere of %.3g \xc2\xb5m %.4f.",
+                      "specimen %.4f, sphere of %.3g µm %.4f.",
                       whole, 2e6 * radius * state->metre_per_length, central);
 }
 
-static bool draw(struct gb_series *series, const struct gb_state *state, double radius,
-                 struct gb_error *err)
+static bool draw_section(struct gb_series *series, const struct gb_state *state,
+                         double radius, struct gb_error *err)
 {
     const double um = 1e6 * state->metre_per_length;
-    if (!die_profile_check(state, "die-section", err)) {
+    if (!check_die(state, "die-section", err)) {
         return false;
     }
     const double height = height_of(state);
@@ -364,7 +365,7 @@ static bool compute_die_section(struct gb_series *series,
     const struct gb_state *state = states.state[0];
     const double radius =
         0.5 * input->set->run[0].params.central_m / state->metre_per_length;
-    const bool good = draw(series, state, radius, err);
+    const bool good = draw_section(series, state, radius, err);
     gb_states_set_finish(&states);
     return good;
 }
@@ -446,7 +447,8 @@ static bool compute_die_density(struct gb_series *series,
 
 enum { TRAVEL_POINTS = 101 };
 
-static bool check(const struct gb_runset *set, const char *figure, struct gb_error *err)
+static bool check_cycle(const struct gb_runset *set, const char *figure,
+                        struct gb_error *err)
 {
     return gb_series_check_die(set, figure, err) && gb_die_summary_check(set, err);
 }
@@ -502,7 +504,7 @@ static bool compute_die_cycle(struct gb_series *series,
                               const struct gb_figures_input *input, struct gb_error *err)
 {
     const struct gb_runset *set = input->set;
-    if (!check(set, "die-cycle", err)) {
+    if (!check_cycle(set, "die-cycle", err)) {
         return false;
     }
     gb_series_init(series, longest(set));
@@ -569,7 +571,7 @@ static bool compute_die_cycle_ejection(struct gb_series *series,
                                        struct gb_error *err)
 {
     const struct gb_runset *set = input->set;
-    if (!check(set, "die-ejection", err)) {
+    if (!check_cycle(set, "die-ejection", err)) {
         return false;
     }
     double *rows = g_new(double, set->count *TRAVEL_POINTS);
@@ -594,13 +596,13 @@ struct profile {
 
 static bool fill_axial(const struct gb_state *state, int bins, double *value)
 {
-    die_profile_density(state, 1, bins, value);
+    find_density_map(state, 1, bins, value);
     return true;
 }
 
 static bool fill_radial(const struct gb_state *state, int bins, double *value)
 {
-    die_profile_density(state, bins, 1, value);
+    find_density_map(state, bins, 1, value);
     return true;
 }
 
@@ -608,7 +610,7 @@ static bool fill_rows(double *rows, const struct gb_states_set *states,
                       const struct profile *profile, struct gb_error *err)
 {
     for (size_t i = 0; i < states->count; i++) {
-        if (!die_profile_check(states->state[i], profile->figure, err)) {
+        if (!check_die(states->state[i], profile->figure, err)) {
             return false;
         }
         if (!profile->fill(states->state[i], profile->bins,
@@ -620,9 +622,8 @@ static bool fill_rows(double *rows, const struct gb_states_set *states,
     return true;
 }
 
-static bool die_profile_draw(struct gb_series *series,
-                             const struct gb_figures_input *input,
-                             const struct profile *profile, struct gb_error *err)
+static bool draw_profile(struct gb_series *series, const struct gb_figures_input *input,
+                         const struct profile *profile, struct gb_error *err)
 {
     const struct gb_runset *set = input->set;
     struct gb_states_set states;
@@ -657,10 +658,10 @@ static bool compute_die_profile_wall(struct gb_series *series,
         "z",
         "wall_MPa",
         12,
-        die_profile_wall,
+        wall_profile,
         "the state has no contacts with walls; accepted states in the die, of version "
         "0.2.0 on"};
-    return die_profile_draw(series, input, &profile, err);
+    return draw_profile(series, input, &profile, err);
 }
 
 static bool compute_die_profile_axial(struct gb_series *series,
@@ -669,7 +670,7 @@ static bool compute_die_profile_axial(struct gb_series *series,
 {
     static const struct profile profile = {"die-axial", "z",        "density",
                                            16,          fill_axial, ""};
-    return die_profile_draw(series, input, &profile, err);
+    return draw_profile(series, input, &profile, err);
 }
 
 static bool compute_die_profile_radial(struct gb_series *series,
@@ -678,7 +679,7 @@ static bool compute_die_profile_radial(struct gb_series *series,
 {
     static const struct profile profile = {"die-radial", "r",         "density",
                                            16,           fill_radial, ""};
-    return die_profile_draw(series, input, &profile, err);
+    return draw_profile(series, input, &profile, err);
 }
 
 /* Share of the cells beyond either end of the colours. */
@@ -693,10 +694,10 @@ static bool mean_map(const struct gb_states_set *states, double *mean,
     double density[CELLS];
     memset(mean, 0, CELLS * sizeof *mean);
     for (size_t i = 0; i < states->count; i++) {
-        if (!die_profile_check(states->state[i], "die-map", err)) {
+        if (!check_die(states->state[i], "die-map", err)) {
             return false;
         }
-        die_profile_density(states->state[i], RINGS, BANDS, density);
+        find_density_map(states->state[i], RINGS, BANDS, density);
         for (int k = 0; k < CELLS; k++) {
             mean[k] += density[k] / (double)states->count;
         }
@@ -741,7 +742,7 @@ static void set_map(struct gb_series *series, const struct gb_state *state,
                                 .x = x,
                                 .y = y,
                                 .value = density,
-                                .label = "relative density <i>\xcf\x81</i>"};
+                                .label = "relative density <i>ρ</i>"};
     for (int i = 0; i <= RINGS; i++) {
         x[i] = um * state->die_radius * i / RINGS;
     }
@@ -796,15 +797,13 @@ const struct gb_figures_row gb_figures_die_rows[] = {
      .compute = compute_poured_density},
     {"die-section", "section of a bed with the sphere of the central density",
      "P3 Fig. 15", GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
-     .x = {.name = "x_um", .label = "distance from the axis <i>x</i> (\xc2\xb5m)"},
-     .y = {.name = "z_um", .label = "height <i>z</i> (\xc2\xb5m)"},
+     .x = {.name = "x_um", .label = "distance from the axis <i>x</i> (µm)"},
+     .y = {.name = "z_um", .label = "height <i>z</i> (µm)"},
      .compute = compute_die_section},
     {"die-height", "axial strain against pressure in a die", "P3 Fig. 17",
      GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .x = GB_FIGURES_PRESSURE_AXIS,
      .y = {.name = "height_change",
-           .label = "axial strain "
-                    "Δ"
-                    "<i>H</i> / <i>H</i><sub>0</sub>"},
+           .label = "axial strain Δ<i>H</i> / <i>H</i><sub>0</sub>"},
      .compute = compute_die_height},
     {"die-density", "density of a compact in a die and of its central region",
      "P3 Fig. 18-20", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT,
@@ -816,7 +815,7 @@ const struct gb_figures_row gb_figures_die_rows[] = {
     {"die-ejection", "force of ejection against the travel of the compact", "",
      GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT,
      .x = {.name = "travel_um",
-           .label = "travel of the compact through the die <i>s</i> (\xc2\xb5m)"},
+           .label = "travel of the compact through the die <i>s</i> (µm)"},
      .y = {.name = "force_mN", .label = "force of ejection <i>F</i> (mN)"},
      .compute = compute_die_cycle_ejection},
     {"die-wall", "radial pressure on the wall of a die over the height", "",
@@ -832,8 +831,7 @@ const struct gb_figures_row gb_figures_die_rows[] = {
      .y = GB_FIGURES_DENSITY_AXIS, .compute = compute_die_profile_radial},
     {"die-map", "density of a compact in a die over radius and height", "",
      GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
-     .x = {.name = "r_um", .label = "distance from the axis <i>r</i> (\xc2\xb5m)"},
-     .y = {.name = "z_um", .label = "height <i>z</i> (\xc2\xb5m)"},
-     .compute = compute_die_map},
+     .x = {.name = "r_um", .label = "distance from the axis <i>r</i> (µm)"},
+     .y = {.name = "z_um", .label = "height <i>z</i> (µm)"}, .compute = compute_die_map},
     {0},
 };

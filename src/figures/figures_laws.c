@@ -1,3 +1,4 @@
+/* Figures of the contact laws alone; they take a preset in place of runs. */
 #include <math.h>
 #include <stdio.h>
 
@@ -17,9 +18,9 @@ struct hardening_model {
     const char *name;   /* in a column of numbers */
 };
 
-enum { GB_HARDENING_MODELS = 5 };
+enum { HARDENING_MODELS = 5, POINTS = 401 /* of a curve */ };
 
-static const struct hardening_model hardening_models[GB_HARDENING_MODELS] = {
+static const struct hardening_model hardening_models[HARDENING_MODELS] = {
     {0.0, NAN, "<i>m</i> = 0", "m0"},
     {0.05, NAN, "<i>m</i> = 0.05", "m0.05"},
     {0.1, NAN, "<i>m</i> = 0.1", "m0.1"},
@@ -29,7 +30,7 @@ static const struct hardening_model hardening_models[GB_HARDENING_MODELS] = {
 
 /* A scene with the hardening of a row.  material.hollomon of the scene stays where the row
  * has no sigma_0. */
-static struct gb_params hardening_models_scene(const struct gb_params *scene, int row)
+static struct gb_params hardened_scene(const struct gb_params *scene, int row)
 {
     const struct hardening_model *model = &hardening_models[row];
     struct gb_params params = *scene;
@@ -41,7 +42,7 @@ static struct gb_params hardening_models_scene(const struct gb_params *scene, in
 
 /* Model of a scene with the contact laws of P1.  Errors: those of gb_model_init;
  * GB_ERR_INPUT for a scene with other contact laws. */
-static bool rod_model_init(struct gb_model *model, const struct gb_params *scene,
+static bool init_rod_model(struct gb_model *model, const struct gb_params *scene,
                            const char *figure, struct gb_error *err)
 {
     if (!gb_model_init(model, scene, err)) {
@@ -50,8 +51,6 @@ static bool rod_model_init(struct gb_model *model, const struct gb_params *scene
     return !model->cohesionless ||
            gb_error_set(err, GB_ERR_INPUT, "%s: accepted contact.normal = rod", figure);
 }
-
-enum { POINTS = 401 };
 
 /* Range of the overlap, in lengths of a bridge. */
 static const double min_overlap = -1.25;
@@ -96,7 +95,7 @@ static void add_point_labels(struct gb_series *series, const struct gb_model *mo
         {0.0, normal_nn(model, 0.0, 0.0), "<i>B</i>", GB_FIGURE_BELOW_LEFT},
         {length, normal_nn(model, length, 0.0), "<i>C</i>", GB_FIGURE_BELOW_RIGHT},
         {0.0, normal_nn(model, 0.0, length), "<i>D</i>", GB_FIGURE_BELOW_LEFT},
-        {deep, normal_nn(model, deep, 0.0), "<i>C\xe2\x80\xb2</i>", GB_FIGURE_ABOVE_LEFT},
+        {deep, normal_nn(model, deep, 0.0), "<i>C′</i>", GB_FIGURE_ABOVE_LEFT},
     };
     g_array_append_vals(series->annotations, notes, G_N_ELEMENTS(notes));
 }
@@ -107,7 +106,7 @@ static bool compute_contact(struct gb_series *series,
                             const struct gb_figures_input *input, struct gb_error *err)
 {
     struct gb_model model;
-    if (!rod_model_init(&model, input->scene, "contact", err)) {
+    if (!init_rod_model(&model, input->scene, "contact", err)) {
         return false;
     }
     if (!model.terms.bridges) {
@@ -120,7 +119,7 @@ static bool compute_contact(struct gb_series *series,
     const struct branch branches[] = {
         {"loading", min_overlap * length, deep, 0.0, "loading"},
         {"C", length, 0.0, length, "unloading from <i>C</i>"},
-        {"later", deep, deep - length, deep, "unloading from <i>C\xe2\x80\xb2</i>"},
+        {"later", deep, deep - length, deep, "unloading from <i>C′</i>"},
     };
     gb_series_init(series, POINTS);
     for (size_t k = 0; k < G_N_ELEMENTS(branches); k++) {
@@ -128,14 +127,12 @@ static bool compute_contact(struct gb_series *series,
     }
     add_point_labels(series, &model, length);
     gb_series_caption(series,
-                      "<i>d</i> = %g nm, <i>\xce\xb1</i> = %g, "
-                      "\xce\x94<i>r</i><sub>ch</sub> = %g <i>d</i>. A bridge forms at "
+                      "<i>d</i> = %g nm, <i>α</i> = %g, "
+                      "Δ<i>r</i><sub>ch</sub> = %g <i>d</i>. A bridge forms at "
                       "<i>C</i> and breaks at <i>D</i>.",
                       1e9 * model.metre_per_length, input->scene->alpha, length);
     return true;
 }
-
-enum { BRIDGE_STRENGTH_POINTS = 401 };
 
 static const double bridge_lengths[] = {0.005, 0.01, 0.015}; /* d */
 static const double bridge_strength_max_overlap = 0.05;      /* d */
@@ -149,15 +146,15 @@ static bool add_length(struct gb_series *series, const struct gb_params *preset,
     struct gb_params scene = *preset;
     const double length = bridge_lengths[index];
     scene.bridge_length = (struct gb_relative){length, true};
-    if (!rod_model_init(&model, &scene, "bridge-strength", err)) {
+    if (!init_rod_model(&model, &scene, "bridge-strength", err)) {
         return false;
     }
     double *strength = gb_series_column(series, "strength_%g_GPa", length);
-    for (int k = 0; k < BRIDGE_STRENGTH_POINTS; k++) {
+    for (int k = 0; k < POINTS; k++) {
         strength[k] = 1e-9 * model.pascal_per_stress *
                       gb_law_bridge_peel_stress(&model.bridge, &model.rod, h[k]);
     }
-    snprintf(label, sizeof label, "\xce\x94<i>r</i><sub>ch</sub> = %g <i>d</i>", length);
+    snprintf(label, sizeof label, "Δ<i>r</i><sub>ch</sub> = %g <i>d</i>", length);
     gb_series_draw(series, h, strength, NULL, GB_FIGURE_LINE, (int)index, label);
     return true;
 }
@@ -168,18 +165,16 @@ static bool compute_bridge_strength(struct gb_series *series,
                                     struct gb_error *err)
 {
     bool good = true;
-    gb_series_init(series, BRIDGE_STRENGTH_POINTS);
+    gb_series_init(series, POINTS);
     double *h = gb_series_column(series, "h");
-    for (int k = 0; k < BRIDGE_STRENGTH_POINTS; k++) {
-        h[k] = bridge_strength_max_overlap * k / (BRIDGE_STRENGTH_POINTS - 1);
+    for (int k = 0; k < POINTS; k++) {
+        h[k] = bridge_strength_max_overlap * k / (POINTS - 1);
     }
     for (size_t i = 0; i < G_N_ELEMENTS(bridge_lengths) && good; i++) {
         good = add_length(series, input->scene, h, i, err);
     }
     return good;
 }
-
-enum { HOLLOMON_POINTS = 401 };
 
 /* The largest strain over that of yield. */
 static const double largest_strain = 5.0;
@@ -189,15 +184,14 @@ static const double percent = 100.0;
 static void draw_curves(struct gb_series *series, const struct gb_params *scene,
                         const double *strain)
 {
-    for (int row = 0; row < GB_HARDENING_MODELS; row++) {
-        const struct gb_params params = hardening_models_scene(scene, row);
+    for (int row = 0; row < HARDENING_MODELS; row++) {
+        const struct gb_params params = hardened_scene(scene, row);
         const double strength = 1e-6 * gb_derived_hollomon_pa(&params);
         double *stress =
             gb_series_column(series, "stress_%s_MPa", hardening_models[row].name);
-        char *label =
-            g_strdup_printf("<i>m</i> = %g, <i>\xcf\x83</i><sub>0</sub> = %.0f MPa",
-                            params.hardening, strength);
-        for (int k = 0; k < HOLLOMON_POINTS; k++) {
+        char *label = g_strdup_printf("<i>m</i> = %g, <i>σ</i><sub>0</sub> = %.0f MPa",
+                                      params.hardening, strength);
+        for (int k = 0; k < POINTS; k++) {
             stress[k] = strength * pow(strain[k] / percent, params.hardening);
         }
         gb_series_draw(series, strain, stress, NULL, GB_FIGURE_LINE, row, label);
@@ -212,16 +206,16 @@ static void draw_elastic(struct gb_series *series, const struct gb_params *scene
     double *elastic = gb_series_column(series, "elastic_MPa");
     double *at = gb_series_column(series, "yield_strain_percent");
     double *stress = gb_series_column(series, "yield_MPa");
-    for (int k = 0; k < HOLLOMON_POINTS; k++) {
+    for (int k = 0; k < POINTS; k++) {
         elastic[k] = strain[k] > percent * yield_strain * (1.0 + 1e-9)
                          ? (double)NAN
                          : 1e-6 * scene->young_pa * strain[k] / percent;
     }
     at[0] = percent * yield_strain;
     stress[0] = 1e-6 * scene->yield_pa;
-    gb_series_draw(series, strain, elastic, NULL, GB_FIGURE_LINE, GB_HARDENING_MODELS,
+    gb_series_draw(series, strain, elastic, NULL, GB_FIGURE_LINE, HARDENING_MODELS,
                    "elastic");
-    gb_series_draw(series, at, stress, NULL, GB_FIGURE_POINTS, GB_HARDENING_MODELS + 1,
+    gb_series_draw(series, at, stress, NULL, GB_FIGURE_POINTS, HARDENING_MODELS + 1,
                    "yield point");
 }
 
@@ -232,23 +226,22 @@ static bool compute_hollomon(struct gb_series *series,
     const struct gb_params *scene = input->scene;
     const double yield_strain = scene->yield_pa / scene->young_pa;
     (void)err;
-    gb_series_init(series, HOLLOMON_POINTS);
+    gb_series_init(series, POINTS);
     double *strain = gb_series_column(series, "strain_percent");
-    for (int k = 0; k < HOLLOMON_POINTS; k++) {
-        strain[k] = percent * largest_strain * yield_strain * k / (HOLLOMON_POINTS - 1);
+    for (int k = 0; k < POINTS; k++) {
+        strain[k] = percent * largest_strain * yield_strain * k / (POINTS - 1);
     }
     draw_curves(series, scene, strain);
     draw_elastic(series, scene, yield_strain, strain);
     series->x.low = 0.0;
     series->y.low = 0.0;
-    gb_series_caption(series,
-                      "<i>\xcf\x83</i><sub>0</sub> by the rule of P3: all curves pass "
-                      "through the yield point. The 1480 MPa that P3 prints for "
-                      "<i>m</i> = 0.05 does not.");
+    gb_series_caption(series, "<i>σ</i><sub>0</sub> by the rule of P3: all curves pass "
+                              "through the yield point. The 1480 MPa that P3 prints for "
+                              "<i>m</i> = 0.05 does not.");
     return true;
 }
 
-enum { PAIR_POINTS = 201, MODELS = 1 + GB_HARDENING_MODELS };
+enum { PAIR_POINTS = 201, MODELS = 1 + HARDENING_MODELS };
 
 /* Maximum indentation over the smaller diameter, of equal spheres and of unequal ones:
  * at the same force the small one is indented much deeper. */
@@ -293,7 +286,7 @@ static bool add_model(struct gb_series *series, const struct gb_figures_input *i
                       struct gb_error *err)
 {
     const struct gb_params params =
-        model > 0 ? hardening_models_scene(input->scene, model - 1) : *input->scene;
+        model > 0 ? hardened_scene(input->scene, model - 1) : *input->scene;
     struct gb_contact_pair pair;
     if (!gb_contact_pair_init(&pair, &params, err)) {
         return false;
@@ -325,7 +318,7 @@ static bool draw_models(struct gb_series *series, const struct gb_figures_input 
     }
     gb_series_caption(
         series,
-        "Radii %g and %g \xce\xbcm. <i>m</i>: Stor\xc3\xa5kers as printed, P3 "
+        "Radii %g and %g μm. <i>m</i>: Storåkers as printed, P3 "
         "(16); scenes take the smaller of it and Hertz. 1480 MPa: as printed "
         "for <i>m</i> = 0.05; the rule of P3 gives 1049.",
         1e6 * input->scene->radius_i_m, 1e6 * input->scene->radius_j_m);
@@ -393,13 +386,12 @@ const struct gb_figures_row gb_figures_laws_rows[] = {
     {"bridge-strength", "strength of a bridge of three lengths", "P1 Fig. 2",
      GB_FIGURES_SCENE, .preset = "p1-set2-16nm",
      .x = {.name = "h", .label = "overlap <i>h</i> / <i>d</i>"},
-     .y = {.name = "strength_GPa",
-           .label = "bridge strength <i>\xcf\x83<sub>u</sub></i> (GPa)"},
+     .y = {.name = "strength_GPa", .label = "bridge strength <i>σ<sub>u</sub></i> (GPa)"},
      .compute = compute_bridge_strength},
     {"hollomon", "stress against strain of hardening materials", "P3 Fig. 9",
      GB_FIGURES_SCENE, .preset = "p3-pair",
-     .x = {.name = "strain_percent", .label = "strain <i>\xce\xb5</i> (%)"},
-     .y = {.name = "stress_MPa", .label = "stress <i>\xcf\x83</i> (MPa)"},
+     .x = {.name = "strain_percent", .label = "strain <i>ε</i> (%)"},
+     .y = {.name = "stress_MPa", .label = "stress <i>σ</i> (MPa)"},
      .compute = compute_hollomon},
     {"pair", "force between two equal spheres, elastic and plastic", "P3 Fig. 10",
      GB_FIGURES_SCENE, .preset = "p3-pair",
@@ -414,10 +406,7 @@ const struct gb_figures_row gb_figures_laws_rows[] = {
     {"critical-step", "critical time step of two equal spheres", "P3 Fig. 12",
      GB_FIGURES_SCENE, .preset = "p3-pair",
      .x = {.name = "h_nm", .label = "indentation <i>h</i> (nm)"},
-     .y = {.name = "step_ns",
-           .label = "critical time step "
-                    "Δ"
-                    "<i>t</i><sub>cr</sub> (ns)"},
+     .y = {.name = "step_ns", .label = "critical time step Δ<i>t</i><sub>cr</sub> (ns)"},
      .compute = compute_pair_step},
     {0},
 };

@@ -1,3 +1,4 @@
+/* Figures of kept states: radial distribution, coordination, forces by direction, sizes. */
 #include <math.h>
 
 #include "base/number.h"
@@ -60,8 +61,8 @@ static void set_ranges(struct gb_series *series, const double *rows, size_t runs
     }
 }
 
-static bool fill(struct gb_series *series, const struct gb_runset *set,
-                 const struct gb_states_set *states, struct gb_error *err)
+static bool fill_rdf(struct gb_series *series, const struct gb_runset *set,
+                     const struct gb_states_set *states, struct gb_error *err)
 {
     const int bins = (int)floor(find_reach(states) / bin_width);
     if (bins < 1) {
@@ -95,7 +96,7 @@ static bool compute_rdf(struct gb_series *series, const struct gb_figures_input 
     const bool good = !gb_loading_kind_of(&input->set->run[0].params)->periodic_cell
                           ? gb_error_set(err, GB_ERR_INPUT,
                                          "rdf: a die has walls; accepted periodic cells")
-                          : fill(series, input->set, &states, err);
+                          : fill_rdf(series, input->set, &states, err);
     gb_states_set_finish(&states);
     return good;
 }
@@ -125,7 +126,7 @@ static void caption_share(struct gb_series *series, const struct gb_runset *set,
                           size_t group, GString *share)
 {
     char *label = set->groups > 1 ? gb_series_group_label(set, group, NULL) : NULL;
-    g_string_replace(share, "+-", "\xc2\xb1", 0);
+    g_string_replace(share, "+-", "±", 0);
     gb_series_caption(series, "%d contacts%s%s: %s %%.", published[0],
                       label != NULL ? ", " : "", label != NULL ? label : "", share->str);
     g_free(label);
@@ -199,10 +200,8 @@ static const struct unit {
     double nn, from_nn;
     const char *column, *axis;
 } units[] = {
-    {1e-3, 0.0, "force_pN", FORCE_AXIS "(pN)"},
-    {1.0, 0.1, "force_nN", FORCE_AXIS "(nN)"},
-    {1e3, 1e4, "force_uN", FORCE_AXIS "(\xc2\xb5N)"},
-    {1e6, 1e6, "force_mN", FORCE_AXIS "(mN)"},
+    {1e-3, 0.0, "force_pN", FORCE_AXIS "(pN)"}, {1.0, 0.1, "force_nN", FORCE_AXIS "(nN)"},
+    {1e3, 1e4, "force_uN", FORCE_AXIS "(µN)"},  {1e6, 1e6, "force_mN", FORCE_AXIS "(mN)"},
     {1e9, 1e9, "force_N", FORCE_AXIS "(N)"},
 };
 
@@ -263,12 +262,12 @@ enum { BINS = 24, LAW_POINTS = 241 };
 enum weight { BY_NUMBER = 0, BY_VOLUME = 3 };
 
 /* Unit of diameters in a figure, and the densities by number (q0) and volume (q3). */
-struct sizes_unit {
+struct size_unit {
     double per_metre;
     const char *name, *column, *diameter_axis, *q0_axis, *q3_axis;
 };
 
-static const struct sizes_unit nanometre = {
+static const struct size_unit nanometre = {
     1e9,
     "nm",
     "nm",
@@ -276,13 +275,13 @@ static const struct sizes_unit nanometre = {
     "number density <i>q</i><sub>0</sub> (1/nm)",
     "volume density <i>q</i><sub>3</sub> (1/nm)",
 };
-static const struct sizes_unit micrometre = {
+static const struct size_unit micrometre = {
     1e6,
-    "\xce\xbcm",
+    "μm",
     "um",
-    "particle diameter <i>d</i> (\xce\xbcm)",
-    "number density <i>q</i><sub>0</sub> (1/\xce\xbcm)",
-    "volume density <i>q</i><sub>3</sub> (1/\xce\xbcm)",
+    "particle diameter <i>d</i> (μm)",
+    "number density <i>q</i><sub>0</sub> (1/μm)",
+    "volume density <i>q</i><sub>3</sub> (1/μm)",
 };
 
 /* Moments of ln d, d in m, and the range of d. */
@@ -328,7 +327,7 @@ static bool is_monodisperse(const struct gb_state *state)
 
 /* Probability density of the diameter over all states; edges in the unit. */
 static void fill_histogram(const struct gb_states_set *states,
-                           const struct sizes_unit *unit, const struct moments *moments,
+                           const struct size_unit *unit, const struct moments *moments,
                            enum weight weight, double *edge, double *density)
 {
     const double low = moments->min * unit->per_metre;
@@ -359,11 +358,10 @@ static double log_normal(double d, double mean, double deviation, enum weight we
     return exp(-0.5 * u * u) / (d * deviation * sqrt(2.0 * M_PI));
 }
 
-static void sizes_fill(struct gb_series *series, const struct gb_states_set *states,
+static void fill_sizes(struct gb_series *series, const struct gb_states_set *states,
                        const struct moments *moments, enum weight weight)
 {
-    const struct sizes_unit *unit =
-        exp(moments->mean) < 0.5e-6 ? &nanometre : &micrometre;
+    const struct size_unit *unit = exp(moments->mean) < 0.5e-6 ? &nanometre : &micrometre;
     const double mean = moments->mean + log(unit->per_metre);
     gb_series_init(series, LAW_POINTS);
     double *edge = gb_series_column(series, "diameter_%s", unit->column);
@@ -383,12 +381,12 @@ static void sizes_fill(struct gb_series *series, const struct gb_states_set *sta
                    mean, unit->column, moments->deviation);
     gb_series_caption(series,
                       "%" G_GINT64_FORMAT " particles; median of the law %.3g %s, "
-                      "<i>\xcf\x83</i> = %.3g.",
+                      "<i>σ</i> = %.3g.",
                       states->state[0]->count, exp(mean), unit->name, moments->deviation);
 }
 
-static bool draw(struct gb_series *series, const struct gb_figures_input *input,
-                 enum weight weight, struct gb_error *err)
+static bool draw_sizes(struct gb_series *series, const struct gb_figures_input *input,
+                       enum weight weight, struct gb_error *err)
 {
     struct gb_states_set states;
     if (!gb_states_set_read(&states, input, err)) {
@@ -401,7 +399,7 @@ static bool draw(struct gb_series *series, const struct gb_figures_input *input,
                      "distribution of sizes");
     if (good) {
         const struct moments moments = find_moments(&states);
-        sizes_fill(series, &states, &moments, weight);
+        fill_sizes(series, &states, &moments, weight);
     }
     gb_states_set_finish(&states);
     return good;
@@ -411,14 +409,14 @@ static bool draw(struct gb_series *series, const struct gb_figures_input *input,
 static bool compute_sizes(struct gb_series *series, const struct gb_figures_input *input,
                           struct gb_error *err)
 {
-    return draw(series, input, BY_NUMBER, err);
+    return draw_sizes(series, input, BY_NUMBER, err);
 }
 
 static bool compute_sizes_volume(struct gb_series *series,
                                  const struct gb_figures_input *input,
                                  struct gb_error *err)
 {
-    return draw(series, input, BY_VOLUME, err);
+    return draw_sizes(series, input, BY_VOLUME, err);
 }
 
 const struct gb_figures_row gb_figures_packings_rows[] = {
@@ -435,8 +433,7 @@ const struct gb_figures_row gb_figures_packings_rows[] = {
     {"force-angle", "mean normal force against the contact angle to z", "P1 Fig. 14",
      GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
      .x = {.name = "angle_deg",
-           .label =
-               "angle between contact and <i>z</i> axis, <i>\xce\xb8</i> (\xc2\xb0)"},
+           .label = "angle between contact and <i>z</i> axis, <i>θ</i> (°)"},
      .compute = compute_force_angle},
     {"sizes", "particle sizes by number, with the log-normal law",
      "P1 Fig. 10, P3 Fig. 14", GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,

@@ -1,3 +1,5 @@
+/* Figures of P2: pressure against the rate, and how it relaxes after compression.  The rate law
+ * is P2 (9). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,15 +25,14 @@ struct rate_points {
 };
 
 /* k_v of P2 (9) as printed, MPa s^(1/4). */
-static const double rate_points_printed_k_v = 21.5;
+static const double printed_k_v = 21.5;
 
 /* Exponents of P2 (9). */
 static const double published_exponent = 0.25;
 static const double published_power = 3.0;
 
 /* Default densities. */
-static const double rate_points_default_density[] = {0.6,  0.65, 0.7,   0.75, 0.8,
-                                                     0.85, 0.9,  0.925, 0.95};
+static const double rate_density[] = {0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95};
 
 /* Keys that may differ between runs of one series of rates: resolution of computation and
  * record, and what follows the compression. */
@@ -137,7 +138,7 @@ static void estimate_errors(struct gb_power_point *points, const double *runs,
 }
 
 /* Whether each of count points has a standard error: fits are then weighted by them. */
-static bool rate_points_have_errors(const struct gb_power_point *points, size_t count)
+static bool have_errors(const struct gb_power_point *points, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         if (!(points[i].error > 0.0)) {
@@ -162,13 +163,13 @@ static void collect_densities(struct rate_points *points, const struct gb_runset
         points->count += found;
     }
     points->fitted = g_memdup2(points->point, points->count * sizeof *points->point);
-    const bool given = rate_points_have_errors(points->point, points->count);
+    const bool given = have_errors(points->point, points->count);
     for (size_t i = 0; i < points->count && !given; i++) {
         points->fitted[i].error = 0.0;
     }
 }
 
-static void rate_points_finish(struct rate_points *points)
+static void finish_points(struct rate_points *points)
 {
     g_free(points->point);
     g_free(points->fitted);
@@ -180,15 +181,13 @@ static void rate_points_finish(struct rate_points *points)
  * first reaches them.  A rate with one run has the standard deviation of the others at its
  * density as its error, none where no rate has two.  figure names it in messages.  Errors: GB_ERR_INPUT (runs that are not
  * dynamic, that differ in more than the rate, or that reach none of the densities). */
-static bool rate_points_find(struct rate_points *points,
-                             const struct gb_figures_input *input, const char *figure,
-                             struct gb_error *err)
+static bool find_points(struct rate_points *points, const struct gb_figures_input *input,
+                        const char *figure, struct gb_error *err)
 {
     const struct gb_runset *set = input->set;
     const bool given = input->densities > 0;
-    const double *density = given ? input->density : rate_points_default_density;
-    const size_t densities =
-        given ? input->densities : G_N_ELEMENTS(rate_points_default_density);
+    const double *density = given ? input->density : rate_density;
+    const size_t densities = given ? input->densities : G_N_ELEMENTS(rate_density);
     *points = (struct rate_points){0};
     if (!gb_series_check_dynamic(set, figure, err) ||
         !check_one_series(set, figure, err)) {
@@ -205,7 +204,7 @@ static bool rate_points_find(struct rate_points *points,
     }
     gb_alloc_free(pressure);
     if (good && points->count == 0) {
-        rate_points_finish(points);
+        finish_points(points);
         return gb_error_set(err, GB_ERR_INPUT, "%s: no run reaches density %g", figure,
                             density[0]);
     }
@@ -220,13 +219,13 @@ static void note_k_v(struct gb_series *series, const struct gb_power_law *law,
                    "(%.4g to %.4g) MPa s^(1/4), chi2 = %.4g with %d degrees of freedom; "
                    "P2 has %g",
                    law->rho0, rate->k_v.value, rate->k_v.low, rate->k_v.high, rate->chi2,
-                   rate->degrees, rate_points_printed_k_v);
+                   rate->degrees, printed_k_v);
 }
 
 /* P2 (9) over all densities: k_v with the printed exponent, and the exponent free, as
  * comment lines.  Weighted by the errors where all points have one.  Returns false, with the reason as a comment line, where the points determine no k_v. */
-static bool rate_points_fit(struct gb_power_rate *rate, const struct rate_points *points,
-                            struct gb_series *series)
+static bool fit_rate(struct gb_power_rate *rate, const struct rate_points *points,
+                     struct gb_series *series)
 {
     struct gb_fit_value exponent;
     struct gb_error cause = {0};
@@ -253,8 +252,8 @@ static bool rate_points_fit(struct gb_power_rate *rate, const struct rate_points
 }
 
 /* k_v v^(1/4) (rho - rho0)^3, MPa. */
-static double rate_points_excess(const struct gb_power_law *law, double k_v, double rate,
-                                 double density)
+static double excess(const struct gb_power_law *law, double k_v, double rate,
+                     double density)
 {
     return k_v * pow(rate, law->exponent) * pow(density - law->rho0, law->power);
 }
@@ -282,11 +281,11 @@ static void law_column(struct gb_series *series, const struct gb_power_law *law,
 {
     const double *density = g_ptr_array_index(series->columns, 0);
     for (size_t i = 0; i < series->rows; i++) {
-        const double k_v = rate_points_printed_k_v;
+        const double k_v = printed_k_v;
         column[i] = density[i] < law->rho0
                         ? (double)NAN
-                        : rate_points_excess(law, k_v, rate, density[i]) -
-                              rate_points_excess(law, k_v, reference_rate, density[i]);
+                        : excess(law, k_v, rate, density[i]) -
+                              excess(law, k_v, reference_rate, density[i]);
     }
 }
 
@@ -301,7 +300,7 @@ static void draw_law(struct gb_series *series, const struct gb_figures_input *in
     struct rate_points points;
     struct gb_power_rate rate;
     struct gb_error ignored = {0};
-    if (!rate_points_find(&points, input, "difference", &ignored)) {
+    if (!find_points(&points, input, "difference", &ignored)) {
         return;
     }
     for (size_t g = 0; g < set->groups; g++) {
@@ -318,12 +317,12 @@ static void draw_law(struct gb_series *series, const struct gb_figures_input *in
                    "quasi-static, P2 (9)");
     gb_series_caption(series,
                       "Thin: P2 (9), <i>k<sub>v</sub></i> = %g MPa s<sup>1/4</sup>.",
-                      rate_points_printed_k_v);
-    if (rate_points_fit(&rate, &points, series)) {
+                      printed_k_v);
+    if (fit_rate(&rate, &points, series)) {
         gb_series_caption(series, "These runs: <i>k<sub>v</sub></i> = %.3g.",
                           rate.k_v.value);
     }
-    rate_points_finish(&points);
+    finish_points(&points);
 }
 
 /* P2 Fig. 3. */
@@ -391,8 +390,8 @@ static void fit_density(struct gb_series *series, const struct gb_power_point *p
         p[i] = points[i].p;
         error[i] = points[i].error;
     }
-    if (gb_power_fit(&fit, v, p, rate_points_have_errors(points, count) ? error : NULL,
-                     count, &cause)) {
+    if (gb_power_fit(&fit, v, p, have_errors(points, count) ? error : NULL, count,
+                     &cause)) {
         note_power(series, points[0].rho, &fit);
         for (size_t i = 0; i < count; i++) {
             fitted[i] = fit.a.value + fit.k.value * pow(v[i], fit.n.value);
@@ -416,7 +415,7 @@ static void draw_densities(struct gb_series *series, const double *density)
         while (to < series->rows && density[to] == density[from]) {
             to++;
         }
-        snprintf(label, sizeof label, "<i>\xcf\x81</i> = %g", density[from]);
+        snprintf(label, sizeof label, "<i>ρ</i> = %g", density[from]);
         struct gb_series_curve *points =
             gb_series_draw(series, rate, p, error, GB_FIGURE_POINTS, style, label);
         points->from = from;
@@ -449,7 +448,7 @@ static bool compute_rate(struct gb_series *series, const struct gb_figures_input
 {
     struct rate_points points;
     struct gb_power_rate rate;
-    if (!rate_points_find(&points, input, "rate", err)) {
+    if (!find_points(&points, input, "rate", err)) {
         return false;
     }
     gb_series_init(series, points.count);
@@ -467,9 +466,9 @@ static bool compute_rate(struct gb_series *series, const struct gb_figures_input
         }
     }
     draw_densities(series, columns[0]);
-    rate_points_fit(&rate, &points, series);
+    fit_rate(&rate, &points, series);
     g_free(fitted);
-    rate_points_finish(&points);
+    finish_points(&points);
     return true;
 }
 
@@ -479,7 +478,7 @@ enum { LINE_POINTS = 101 };
 static const double published_rates[2] = {1e4, 1e9};
 
 /* Default densities: fewer than those of the figure rate, whose points do not overlap. */
-static const double default_density[] = {0.6, 0.7, 0.8, 0.9, 0.95};
+static const double difference_density[] = {0.6, 0.7, 0.8, 0.9, 0.95};
 
 /* Columns of the points: what is left of p beyond the static pressure of its density. */
 static void point_columns(struct gb_series *series, const struct rate_points *points,
@@ -527,16 +526,16 @@ static void draw_lines(struct gb_series *series, const struct gb_power_law *law,
     double *fitted = gb_series_column(series, "fit_%g_MPa", density);
     double *printed = gb_series_column(series, "P2_%g_MPa", density);
     for (size_t k = 0; k < LINE_POINTS; k++) {
-        fitted[k] = rate_points_excess(law, k_v, rate[k], density);
-        printed[k] = rate_points_excess(law, rate_points_printed_k_v, rate[k], density);
+        fitted[k] = excess(law, k_v, rate[k], density);
+        printed[k] = excess(law, printed_k_v, rate[k], density);
     }
     gb_series_draw(series, rate, fitted, NULL, GB_FIGURE_LINE, style % GB_FIGURE_STYLES,
                    NULL); /* a repeated colour would have markers, as the points */
     gb_series_draw(series, rate, printed, NULL, GB_FIGURE_FAINT, style, NULL);
 }
 
-static void rate_difference_draw_densities(struct gb_series *series,
-                                           const struct rate_points *points, double k_v)
+static void draw_difference_densities(struct gb_series *series,
+                                      const struct rate_points *points, double k_v)
 {
     const double *rate = g_ptr_array_index(series->columns, 1);
     const double *difference = g_ptr_array_index(series->columns, 2);
@@ -548,7 +547,7 @@ static void rate_difference_draw_densities(struct gb_series *series,
         while (to < points->count && points->point[to].rho == density) {
             to++;
         }
-        char *label = g_strdup_printf("<i>\xcf\x81</i> = %g", density);
+        char *label = g_strdup_printf("<i>ρ</i> = %g", density);
         struct gb_series_curve *curve = gb_series_draw(series, rate, difference, error,
                                                        GB_FIGURE_POINTS, style, label);
         curve->from = from;
@@ -567,31 +566,31 @@ static bool compute_rate_difference(struct gb_series *series,
     struct gb_power_rate rate;
     struct gb_figures_input at = *input;
     if (at.densities == 0) {
-        at.densities = G_N_ELEMENTS(default_density);
-        memcpy(at.density, default_density, sizeof default_density);
+        at.densities = G_N_ELEMENTS(difference_density);
+        memcpy(at.density, difference_density, sizeof difference_density);
     }
-    if (!rate_points_find(&points, &at, "rate-difference", err)) {
+    if (!find_points(&points, &at, "rate-difference", err)) {
         return false;
     }
     gb_series_init(series, MAX(points.count, LINE_POINTS));
     gb_series_note(series, "p_stat: at each density the weighted mean of p - k_v v^(1/4) "
                            "(rho - rho0)^3 with the fitted k_v; se: of p");
     const bool good =
-        rate_points_fit(&rate, &points, series) ||
+        fit_rate(&rate, &points, series) ||
         gb_error_set(err, GB_ERR_INPUT,
                      "rate-difference: %zu points of mean pressure give no k_v; it takes "
                      "two rates at one density",
                      points.count);
     if (good) {
         point_columns(series, &points, rate.k_v.value);
-        rate_difference_draw_densities(series, &points, rate.k_v.value);
+        draw_difference_densities(series, &points, rate.k_v.value);
         gb_series_caption(
             series,
             "Bars: standard error. Lines: P2 (9), <i>k<sub>v</sub></i> = %.3g MPa "
             "s<sup>1/4</sup>, fitted; thin: %g, printed.",
-            rate.k_v.value, rate_points_printed_k_v);
+            rate.k_v.value, printed_k_v);
     }
-    rate_points_finish(&points);
+    finish_points(&points);
     return good;
 }
 
@@ -692,8 +691,7 @@ static void draw_parameter(struct gb_series *series, const double *rate,
                            const struct group_fit *fits, enum drawn drawn)
 {
     static const char *const names[][GB_FIT_TERMS] = {
-        [TIMES] = {"fast, <i>\xcf\x84</i><sub>1</sub>",
-                   "slow, <i>\xcf\x84</i><sub>2</sub>"},
+        [TIMES] = {"fast, <i>τ</i><sub>1</sub>", "slow, <i>τ</i><sub>2</sub>"},
         [AMPLITUDES] = {"fast, <i>p</i><sub>1</sub>", "slow, <i>p</i><sub>2</sub>"}};
     const char *unit = drawn == TIMES ? "ns" : "MPa";
     for (int k = 0; k < GB_FIT_TERMS; k++) {
@@ -918,10 +916,7 @@ const struct gb_figures_row gb_figures_rates_rows[] = {
     {"difference", "pressure minus that of the reference, with P2 (9)", "P2 Fig. 3",
      GB_FIGURES_RUNS, GB_FIGURES_ON_REQUEST, GB_FIGURES_REFERENCE,
      .ignored_keys = gb_figures_after_loading, .x = GB_FIGURES_DENSITY_AXIS,
-     .y = {.name = "difference_MPa",
-           .label = "pressure difference "
-                    "Δ"
-                    "<i>p</i> (MPa)"},
+     .y = {.name = "difference_MPa", .label = "pressure difference Δ<i>p</i> (MPa)"},
      .compute = compute_difference},
     {"rate", "pressure at given densities against rate, with power law", "P2 sec. 3",
      GB_FIGURES_RUNS, GB_FIGURES_ON_REQUEST, GB_FIGURES_DENSITY,
@@ -932,14 +927,12 @@ const struct gb_figures_row gb_figures_rates_rows[] = {
      "P2 Fig. 4", GB_FIGURES_RUNS, GB_FIGURES_ON_REQUEST, GB_FIGURES_DENSITY,
      .ignored_keys = gb_figures_after_loading, .x = RATE_AXIS,
      .y = {.name = "difference_MPa",
-           .label = "pressure above the static one <i>p</i> \xe2\x88\x92 "
+           .label = "pressure above the static one <i>p</i> − "
                     "<i>p</i><sub>stat</sub> (MPa)"},
      .compute = compute_rate_difference},
     {"relaxation", "relaxation times after compression, from the fitted decay",
      "P2 Table 1", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .x = RATE_AXIS,
-     .y = {.name = "tau_ns",
-           .label = "relaxation time <i>\xcf\x84</i> (ns)",
-           .log = true},
+     .y = {.name = "tau_ns", .label = "relaxation time <i>τ</i> (ns)", .log = true},
      .compute = compute_relaxation},
     {"relaxation-amplitude", "amplitudes of the fitted decay after compression",
      "P2 Table 1", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .x = RATE_AXIS,

@@ -1,3 +1,5 @@
+/* Figures of the loading paths of runs: unloading, continuum theory, fitted equations, stresses
+ * of the legs, and comparisons of groups at one pressure (size effect, sweep). */
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
@@ -452,8 +454,8 @@ static bool add_run(struct gb_series *series, const struct gb_runset *set, size_
     return good;
 }
 
-static bool draw(struct gb_series *series, const struct gb_runset *set, int component,
-                 struct gb_error *err)
+static bool draw_paths(struct gb_series *series, const struct gb_runset *set,
+                       int component, struct gb_error *err)
 {
     bool good = true;
     gb_series_init(series, most_rows(set));
@@ -467,7 +469,7 @@ static bool draw(struct gb_series *series, const struct gb_runset *set, int comp
 static bool compute_legs_path(struct gb_series *series,
                               const struct gb_figures_input *input, struct gb_error *err)
 {
-    return draw(series, input->set, -1, err);
+    return draw_paths(series, input->set, -1, err);
 }
 
 /* All runs against the strain of the first one. */
@@ -476,18 +478,18 @@ static bool compute_legs_stress_strain(struct gb_series *series,
                                        struct gb_error *err)
 {
     static const char *const labels[GB_PATH_COMPONENTS] = {
-        "axial strain <i>\xce\xb5<sub>x</sub></i> (%)",
-        "axial strain <i>\xce\xb5<sub>y</sub></i> (%)",
-        "axial strain <i>\xce\xb5<sub>z</sub></i> (%)",
-        "shear strain <i>\xce\xb3<sub>xy</sub></i> (%)",
-        "shear strain <i>\xce\xb3<sub>xz</sub></i> (%)",
-        "shear strain <i>\xce\xb3<sub>yz</sub></i> (%)"};
+        "axial strain <i>ε<sub>x</sub></i> (%)",
+        "axial strain <i>ε<sub>y</sub></i> (%)",
+        "axial strain <i>ε<sub>z</sub></i> (%)",
+        "shear strain <i>γ<sub>xy</sub></i> (%)",
+        "shear strain <i>γ<sub>xz</sub></i> (%)",
+        "shear strain <i>γ<sub>yz</sub></i> (%)"};
     struct gb_path path;
     if (!read_path(&input->set->run[0], &path, err)) {
         return false;
     }
     const int component = gb_path_strained(&path);
-    const bool good = draw(series, input->set, component, err);
+    const bool good = draw_paths(series, input->set, component, err);
     series->x.name = "strain_percent";
     series->x.label = labels[component];
     return good;
@@ -616,9 +618,6 @@ static bool compute_size_effect(struct gb_series *series,
     return good;
 }
 
-/* Densities are compared there in P1. */
-static const double sweep_default_mpa = 100.0;
-
 enum { UNIT_MAX = 16, NAME_MAX_BYTES = 96 };
 /* More lines of one point each are the points of a design. */
 enum { LINES_MOST = 8 };
@@ -696,7 +695,7 @@ static const struct gb_field *find_key(const struct gb_runset *set, struct gb_er
 }
 
 /* First group that differs in nothing but the key. */
-static size_t sweep_family_of(const struct gb_runset *set, size_t group, const char *key)
+static size_t family_of_key(const struct gb_runset *set, size_t group, const char *key)
 {
     const char *const may_differ[] = {key, NULL};
     for (size_t g = 0; g < group; g++) {
@@ -723,23 +722,23 @@ static int compare_points(const void *a, const void *b)
 }
 
 /* All groups in the order of their lines.  g_free. */
-static struct point *sweep_sort_groups(const struct gb_runset *set,
-                                       const struct gb_field *field, const char *key,
-                                       char unit[UNIT_MAX])
+static struct point *sort_by_value(const struct gb_runset *set,
+                                   const struct gb_field *field, const char *key,
+                                   char unit[UNIT_MAX])
 {
     struct point *point = g_new0(struct point, set->groups);
     for (size_t g = 0; g < set->groups; g++) {
         point[g].group = g;
-        point[g].family = sweep_family_of(set, g, key);
+        point[g].family = family_of_key(set, g, key);
         (void)read_value(set, g, field, &point[g].x, unit);
     }
     qsort(point, set->groups, sizeof *point, compare_points);
     return point;
 }
 
-static void sweep_draw_family(struct gb_series *series, const struct gb_runset *set,
-                              const struct point *point, size_t family, const char *key,
-                              int style, const double *const from[3])
+static void draw_key_family(struct gb_series *series, const struct gb_runset *set,
+                            const struct point *point, size_t family, const char *key,
+                            int style, const double *const from[3])
 {
     double *value = gb_series_column(series, "density_%d", style + 1);
     double *error = gb_series_column(series, "se_%d", style + 1);
@@ -759,7 +758,7 @@ static size_t count_families(const struct gb_runset *set, const char *key)
 {
     size_t count = 0;
     for (size_t g = 0; g < set->groups; g++) {
-        count += sweep_family_of(set, g, key) == g;
+        count += family_of_key(set, g, key) == g;
     }
     return count;
 }
@@ -777,8 +776,8 @@ static void draw_families(struct gb_series *series, const struct gb_runset *set,
         return;
     }
     for (size_t g = 0; g < set->groups; g++) {
-        if (sweep_family_of(set, g, key) == g) {
-            sweep_draw_family(series, set, point, g, key, style++, from);
+        if (family_of_key(set, g, key) == g) {
+            draw_key_family(series, set, point, g, key, style++, from);
         }
     }
 }
@@ -789,8 +788,7 @@ static bool compute_sweep(struct gb_series *series, const struct gb_figures_inpu
                           struct gb_error *err)
 {
     const struct gb_runset *set = input->set;
-    const double mpa =
-        input->pressure_pa > 0.0 ? input->pressure_pa / 1e6 : sweep_default_mpa;
+    const double mpa = input->pressure_pa > 0.0 ? input->pressure_pa / 1e6 : default_mpa;
     char unit[UNIT_MAX] = "";
     char key[NAME_MAX_BYTES];
     const struct gb_field *field = find_key(set, err);
@@ -798,7 +796,7 @@ static bool compute_sweep(struct gb_series *series, const struct gb_figures_inpu
         return false;
     }
     snprintf(key, sizeof key, "%s.%s", field->group, field->key);
-    struct point *point = sweep_sort_groups(set, field, key, unit);
+    struct point *point = sort_by_value(set, field, key, unit);
     gb_series_init(series, set->groups);
     gb_series_note_groups(series, set);
     double *x = gb_series_column(series, "%s%s%s", key, *unit ? "_" : "", unit);
@@ -852,10 +850,7 @@ const struct gb_figures_row gb_figures_runs_rows[] = {
     {"heckel", "Heckel plot with its straightest stretch and the yield pressure",
      "Heckel 1961", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT,
      .ignored_keys = gb_figures_after_loading, .x = GB_FIGURES_PRESSURE_AXIS,
-     .y = {.name = "log_porosity",
-           .label = "ln(1 / (1 \xe2\x88\x92 "
-                    "<i>ρ</i>"
-                    "))"},
+     .y = {.name = "log_porosity", .label = "ln(1 / (1 − <i>ρ</i>))"},
      .compute = compute_heckel},
     {"coordination", "mean coordination number against density", "P1 Fig. 8, P2 (8)",
      GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .ignored_keys = gb_figures_after_loading,
@@ -884,10 +879,7 @@ const struct gb_figures_row gb_figures_runs_rows[] = {
      "P1 Fig. 6", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, GB_FIGURES_PRESSURE,
      .x = {.name = "diameter_nm", .label = "particle diameter <i>d</i> (nm)"},
      .y = {.name = "difference_points",
-           .label = "difference of relative density "
-                    "Δ"
-                    "<i>ρ</i>"
-                    " (%)"},
+           .label = "difference of relative density Δ<i>ρ</i> (%)"},
      .compute = compute_size_effect},
     {"sweep",
      "density at one pressure against a varied key, one line per value of others", "",

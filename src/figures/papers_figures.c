@@ -1,3 +1,4 @@
+/* Numbers that the papers print, as marks in figures, and the figures of `greenbody papers`. */
 #include "figures/papers_figures.h"
 
 #include <string.h>

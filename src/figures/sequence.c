@@ -1,3 +1,4 @@
+/* Frames of all kept states of a run with one camera and one scale. */
 #include "figures/sequence.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* The data of a figure as columns and curves; means of the runs of a group; labels of groups. */
 #include "figures/series.h"
 
 #include <glib.h>
@@ -114,8 +115,7 @@ static char *value_markup(const char *value)
     const bool micro =
         length > 3 && safe[length - 2] == 'u' && strchr("msN", safe[length - 1]) != NULL;
     if (micro && strchr(" /", safe[length - 3]) != NULL) {
-        char *greek =
-            g_strdup_printf("%.*s\xce\xbc%c", (int)length - 2, safe, safe[length - 1]);
+        char *greek = g_strdup_printf("%.*sμ%c", (int)length - 2, safe, safe[length - 1]);
         g_free(safe);
         return greek;
     }

@@ -1,3 +1,4 @@
+/* Kept states: those of a run directory, and one of each run of a set. */
 #include "figures/states.h"
 
 #include <glib.h>

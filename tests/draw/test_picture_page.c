@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "draw/caption.h"
-#include "draw/image/palette.h"
 #include "draw/image/image.h"
+#include "draw/image/palette.h"
 #include "draw/picture_colours.h"
 
 static void test_colour_bar(void)
@@ -24,7 +24,7 @@ static void test_colour_bar(void)
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
         const double y = layout.bar.top + layout.bar.height - (k + 0.5) * step;
-        gb_palette_contacts(k, rgb);
+        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
         const uint8_t *pixel =
             small_packing_pixel(image, layout.bar.left + 0.5 * layout.bar.width, y);
         g_assert_cmpint(memcmp(pixel, rgb, 3), ==, 0);
@@ -49,7 +49,7 @@ static void test_one_value(void)
     }
     struct gb_image *image = small_packing_paint(&packing_image, state);
     gb_scene_destroy(small_packing_scene(&packing_image, state, &layout));
-    gb_palette_field(0.5, rgb);
+    gb_palette_value(NULL, 0.5, rgb);
     for (double part = 0.05; part < 1.0; part += 0.1) {
         const uint8_t *pixel =
             small_packing_pixel(image, layout.bar.left + 0.5 * layout.bar.width,
@@ -281,8 +281,8 @@ static void test_print_size_columns(void)
         g_assert_true(gb_image_parse_print(columns[i].name, 600, &size, &err));
         g_assert_cmpint(size.width, ==, (int)round(columns[i].mm / 25.4 * 600.0));
     }
-    for (const struct gb_image_journal *row = gb_image_journals;
-         row->name != NULL; row++) {
+    for (const struct gb_image_journal *row = gb_image_journals; row->name != NULL;
+         row++) {
         char *middle = g_strconcat(row->name, "-1.5", NULL);
         g_assert_true(gb_image_parse_print(row->name, 300, &size, &err));
         g_assert_cmpint(gb_image_parse_print(middle, 300, &size, NULL), ==,

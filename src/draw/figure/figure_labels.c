@@ -471,7 +471,7 @@ static char *shorten(const struct gb_text *text, const char *label, double most)
             return markup;
         }
         *comma = '\0';
-        char *shorter = g_strconcat(markup, "\xe2\x80\xa6", NULL);
+        char *shorter = g_strconcat(markup, "…", NULL);
         g_free(markup);
         markup = shorter;
     }

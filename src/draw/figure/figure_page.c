@@ -14,10 +14,10 @@
 
 char *gb_figure_page_name(const char *label, const struct gb_figure_axis_scale *scale)
 {
-    return scale->power == 0 ? g_strdup(label)
-                             : g_strdup_printf("%s \xc3\x97 10<sup>%s%d</sup>", label,
-                                               scale->power < 0 ? "\xe2\x88\x92" : "",
-                                               abs(scale->power));
+    return scale->power == 0
+               ? g_strdup(label)
+               : g_strdup_printf("%s × 10<sup>%s%d</sup>", label,
+                                 scale->power < 0 ? "−" : "", abs(scale->power));
 }
 
 static double name_height(const struct gb_figure_page *page, const char *label)

@@ -151,13 +151,3 @@ void gb_palette_scale(double x, uint8_t rgb[3])
 {
     interpolate(&maps[0], x, rgb);
 }
-
-void gb_palette_contacts(int contacts, uint8_t rgb[3])
-{
-    gb_palette_value(NULL, (double)contacts / GB_PALETTE_CONTACTS, rgb);
-}
-
-void gb_palette_field(double x, uint8_t rgb[3])
-{
-    gb_palette_value(NULL, x, rgb);
-}

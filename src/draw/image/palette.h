@@ -27,10 +27,4 @@ void gb_palette_value(const struct gb_palette_map *map, double x, uint8_t rgb[3]
 /* Viridis from end to end; x is limited to [0, 1]. */
 void gb_palette_scale(double x, uint8_t rgb[3]);
 
-/* Colour of a coordination number in the default scale; below 0 counts as 0. */
-void gb_palette_contacts(int contacts, uint8_t rgb[3]);
-
-/* The same as gb_palette_value of the default scale. */
-void gb_palette_field(double x, uint8_t rgb[3]);
-
 #endif

@@ -114,9 +114,10 @@ static bool encode(struct writer *writer, const struct gb_image *image,
     return true;
 }
 
-bool gb_png_encode(const struct gb_image *image, enum gb_png_alpha alpha,
-                   const struct gb_png_text *texts, int text_count, char **memory,
-                   size_t *size, struct gb_error *err)
+/* Encodes an image into memory, which belongs to the caller (free). */
+static bool encode_image(const struct gb_image *image, enum gb_png_alpha alpha,
+                         const struct gb_png_text *texts, int text_count, char **memory,
+                         size_t *size, struct gb_error *err)
 {
     struct writer writer = {.png = NULL};
     *memory = NULL;
@@ -153,7 +154,7 @@ bool gb_png_write(const struct gb_image *image, enum gb_png_alpha alpha,
     size_t size = 0;
     const bool done =
         gb_file_check_target(path, err) &&
-        gb_png_encode(image, alpha, texts, text_count, &memory, &size, err) &&
+        encode_image(image, alpha, texts, text_count, &memory, &size, err) &&
         gb_file_replace(path, memory, size, err);
     free(memory);
     return done;
@@ -464,8 +465,8 @@ bool gb_png_animation_add(struct gb_png_animation *apng, const struct gb_image *
     }
     const bool done =
         cut_out(&part, image, &area, err) &&
-        gb_png_encode(part, apng->alpha, apng->texts,
-                      apng->added == 0 ? apng->text_count : 0, &memory, &size, err) &&
+        encode_image(part, apng->alpha, apng->texts,
+                     apng->added == 0 ? apng->text_count : 0, &memory, &size, err) &&
         put_frame(apng, (const uint8_t *)memory, size, &area, milliseconds, err) &&
         keep_frame(apng, image, err);
     free(memory);

@@ -19,11 +19,6 @@ bool gb_png_write(const struct gb_image *image, enum gb_png_alpha alpha,
                   const struct gb_png_text *texts, int text_count, const char *path,
                   struct gb_error *err);
 
-/* The same into memory, which belongs to the caller (free). */
-bool gb_png_encode(const struct gb_image *image, enum gb_png_alpha alpha,
-                   const struct gb_png_text *texts, int text_count, char **memory,
-                   size_t *size, struct gb_error *err);
-
 /* The value of the text chunk `key` of a PNG file (g_free).  Errors: GB_ERR_INPUT when
  * the file is no PNG or has no such chunk, GB_ERR_MACHINE when it cannot be read. */
 bool gb_png_read_text(const char *path, const char *key, char **value,

@@ -428,9 +428,9 @@ static void begin_page(struct gb_report *report)
     const struct gb_runset *set = report->set;
     GDateTime *now = g_date_time_new_now_utc();
     char *date = g_date_time_format(now, "%Y-%m-%d %H:%M UTC");
-    char *subtitle = g_strdup_printf(
-        "%zu run%s of %zu scene%s \xc2\xb7 greenbody %s \xc2\xb7 %s", set->count,
-        plural(set->count), set->groups, plural(set->groups), GB_VERSION, date);
+    char *subtitle = g_strdup_printf("%zu run%s of %zu scene%s · greenbody %s · %s",
+                                     set->count, plural(set->count), set->groups,
+                                     plural(set->groups), GB_VERSION, date);
     gb_page_begin(&report->page, set->run[0].params.title, subtitle);
     g_free(subtitle);
     g_free(date);

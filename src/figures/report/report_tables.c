@@ -54,8 +54,7 @@ static void put_mean_cell(struct gb_report_table *table, double mean, double err
         gb_report_tables_put(table, "%s", "");
     } else if (error > 0.0) {
         char number[GB_NUMBER_ERROR_MAX];
-        gb_report_tables_put(table, "%s",
-                             gb_number_error(mean, error, 2, " \xc2\xb1 ", number));
+        gb_report_tables_put(table, "%s", gb_number_error(mean, error, 2, " ± ", number));
     } else {
         gb_report_tables_put(table, "%.*f", decimals, mean);
     }
