@@ -40,7 +40,7 @@ static bool begin_pen(struct pen *pen, struct gb_image *image, double unit,
     *pen = (struct pen){
         .cairo = cairo_create(surface),
         .unit = unit,
-        .least = gb_image_print_pixels(image->per_inch, GB_IMAGE_PRINT_LETTERS_LEAST)};
+        .least = gb_image_print_pixels(image->per_inch, GB_IMAGE_PRINT_TEXT_LEAST)};
     cairo_surface_destroy(surface);
     gb_scene_foreground(background, pen->foreground);
     return gb_text_init(&pen->text, pen->cairo, err);
@@ -173,9 +173,9 @@ static struct sizes bare_sizes(const struct gb_caption_page *page)
 static struct sizes annotated_sizes(const struct gb_caption_page *page)
 {
     const double shorter = fmin(page->width, page->height);
-    const double unit =
-        page->per_inch > 0 ? gb_image_print_pixels(page->per_inch, GB_IMAGE_PRINT_LETTERS)
-                           : fmax(shorter / 44.0, 10.0);
+    const double unit = page->per_inch > 0
+                            ? gb_image_print_pixels(page->per_inch, GB_IMAGE_PRINT_TEXT)
+                            : fmax(shorter / 44.0, 10.0);
     struct sizes sizes = {.unit = unit,
                           .left = fmax(margin * shorter, unit),
                           .top = (page->load ? load_above : title_above) * unit,

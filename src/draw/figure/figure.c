@@ -387,7 +387,7 @@ static double pixels_per_point(const struct gb_figure *figure, int width, int he
 {
     if (figure->per_inch > 0) {
         return gb_image_print_pixels(figure->per_inch,
-                                     GB_IMAGE_PRINT_LETTERS / GB_FIGURE_LABELS_SIZE);
+                                     GB_IMAGE_PRINT_TEXT / GB_FIGURE_LABELS_SIZE);
     }
     return fmin(width / min_width, height / min_height);
 }

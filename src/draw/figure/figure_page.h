@@ -22,7 +22,7 @@ struct gb_figure_page {
 #define GB_FIGURE_PAGE_CAPTION 8.0
 /* Letters of text that is reduced to fit are not smaller. */
 #define GB_FIGURE_PAGE_LEAST                                                             \
-    (GB_IMAGE_PRINT_LETTERS_LEAST / GB_IMAGE_PRINT_LETTERS * GB_FIGURE_LABELS_SIZE)
+    (GB_IMAGE_PRINT_TEXT_LEAST / GB_IMAGE_PRINT_TEXT * GB_FIGURE_LABELS_SIZE)
 #define GB_FIGURE_PAGE_GAP         4.0
 #define GB_FIGURE_PAGE_NAME_MARGIN 4.0 /* of a name from the edge of the page */
 #define GB_FIGURE_PAGE_BAR         62.0 /* width right of the frame that the bar of a map takes */

@@ -33,9 +33,9 @@ struct gb_image_print {
 
 /* Letters of captions and labels in print, points: journals ask for 7 to 8, and no
  * smaller than 6 anywhere. */
-#define GB_IMAGE_PRINT_LETTERS 7.4
+#define GB_IMAGE_PRINT_TEXT 7.4
 
-#define GB_IMAGE_PRINT_LETTERS_LEAST 6.0
+#define GB_IMAGE_PRINT_TEXT_LEAST 6.0
 
 /* Column widths of journals; 0: it has none of this kind. */
 struct gb_image_journal {
