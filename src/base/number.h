@@ -23,4 +23,13 @@ enum { GB_NUMBER_ERROR_MAX = 96 };
 char *gb_number_error(double value, double error, int digits, const char *sign,
                       char buffer[GB_NUMBER_ERROR_MAX]);
 
+/* Largest of 1, 2, 5 x 10^k that is at most `max`, which is positive. */
+double gb_number_round_below(double max);
+
+/* Smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 x 10^k that is at least `min`, which is positive. */
+double gb_number_round_above(double min);
+
+/* Of 1, 2, 5, 10 x 10^k the one nearest to a positive step. */
+double gb_number_nearest_step(double rough);
+
 #endif

@@ -8,7 +8,7 @@
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "draw/style/picture_colours.h"
+#include "draw/picture_colours.h"
 #include "figures/figures.h"
 #include "greenbody/params.h"
 #include "io/export/export.h"

@@ -1,12 +1,11 @@
 #include "cli/page_options.h"
 
 #include "draw/image/image.h"
-#include "draw/image/print_size.h"
 
 bool gb_page_options_take(const struct gb_page_options *options, int *width, int *height,
                           int *per_inch, struct gb_error *err)
 {
-    struct gb_print_size print;
+    struct gb_image_print print;
     if (options->width == NULL) {
         return (options->per_inch == 0 ||
                 gb_error_set(err, GB_ERR_INPUT, "--dpi: accepted with --width")) &&
@@ -16,7 +15,7 @@ bool gb_page_options_take(const struct gb_page_options *options, int *width, int
     if (options->size != NULL) {
         return gb_error_set(err, GB_ERR_INPUT, "--size, --width: accepted one of them");
     }
-    if (!gb_print_size_parse(options->width,
+    if (!gb_image_parse_print(options->width,
                              options->per_inch != 0 ? options->per_inch : 300, &print,
                              err)) {
         return false;
@@ -27,7 +26,7 @@ bool gb_page_options_take(const struct gb_page_options *options, int *width, int
     return true;
 }
 
-static void append_column(GString *text, const struct gb_print_size_journal *row,
+static void append_column(GString *text, const struct gb_image_journal *row,
                           const char *columns, double mm)
 {
     if (mm > 0.0) {
@@ -43,7 +42,7 @@ char *gb_page_options_journals(void)
 {
     GString *text = g_string_new("Columns of journals for --width: one, one and a half, "
                                  "two (sources in docs/figures.md):\n");
-    for (const struct gb_print_size_journal *row = gb_print_size_journals;
+    for (const struct gb_image_journal *row = gb_image_journals;
          row->name != NULL; row++) {
         append_column(text, row, "", row->single_mm);
         append_column(text, row, "-1.5", row->middle_mm);

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "draw/caption/caption_layout.h"
+#include "draw/caption.h"
 #include "draw/gl/renderer.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
@@ -16,8 +16,8 @@
  * caption, file). */
 struct gb_packing_image {
     int width, height; /* of the page; the largest ones of a side that is cropped */
-    int per_inch;      /* pixels in print; 0: none (draw/image/print_size.h) */
-    enum gb_caption_layout_crop crop;
+    int per_inch;      /* pixels in print; 0: none (draw/image/image.h) */
+    enum gb_caption_crop crop;
     struct gb_viewpoint viewpoint;
     enum gb_background background;
     bool annotated; /* title, colour bar, scale bar, density and pressure */
@@ -61,5 +61,20 @@ struct gb_packing_image_texts {
 };
 void gb_packing_image_describe(struct gb_packing_image_texts *texts,
                                const struct gb_state *state, const char *preset);
+
+enum { GB_PACKING_IMAGE_ROWS = 6 }; /* most packings of one image */
+
+/* Panels of one image. */
+enum gb_packing_image_panels {
+    GB_PACKING_IMAGE_ALONE,
+    GB_PACKING_IMAGE_WITH_ROSE, /* its rose of forces right of each packing */
+};
+
+/* Renders packings one below the other into one PNG; all roses have one scale.  Errors:
+ * those of gb_packing_image_write; GB_ERR_INPUT for a rose of a packing in tension. */
+bool gb_packing_image_write_panels(const struct gb_packing_image *packing_image,
+                                   enum gb_packing_image_panels content,
+                                   struct gb_state *const *states, size_t count,
+                                   const char *path, struct gb_error *err);
 
 #endif

@@ -105,7 +105,7 @@ static void set_surface(struct gb_scene *scene, const struct gb_harmonics *rose,
                     corner(scene, rose, reach, around + corners[half][k][0],
                            down + corners[half][k][1], facet + 3 * k, &sum);
                 }
-                gb_palette_field(sum / 3.0 / reach, colour);
+                gb_palette_value(NULL, sum / 3.0 / reach, colour);
                 colour[3] = 255;
                 facet += 9;
                 colour += 4;
@@ -133,7 +133,7 @@ static void set_plane(struct gb_scene *scene, const struct gb_harmonics *rose,
             corner(scene, rose, reach, at <= DOWN ? 0 : OPPOSITE,
                    at <= DOWN ? at : PLANAR - at, facet + 3 + 3 * end, &sum);
         }
-        gb_palette_field(sum / 2.0 / reach, colour + 4 * k);
+        gb_palette_value(NULL, sum / 2.0 / reach, colour + 4 * k);
         colour[4 * k + 3] = 255;
     }
 }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "draw/style/picture_style.h"
+#include "draw/picture_style.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
 #include "io/state/state.h"
@@ -30,14 +30,15 @@ struct gb_scene {
     int edge_count;
     float edge[GB_SCENE_EDGES][6]; /* both ends of the edges of box or die */
     size_t walls;
-    float *wall; /* walls x GB_SCENE_WALL_NUMBERS: translucent triangles, far ones first */
+    float
+        *wall; /* walls x GB_SCENE_WALL_NUMBERS: translucent triangles, far ones first */
     int arrows, frame_arrows;
-    float arrow[GB_SCENE_ARROWS][6]; /* of pressing: tail and tip */
+    float arrow[GB_SCENE_ARROWS][6];       /* of pressing: tail and tip */
     float frame_arrow[GB_SCENE_ARROWS][6]; /* those that the frame has room for */
     int cuts;        /* half-spaces n p > c, whose common part of spheres is cut away */
     float cut[3][4]; /* n and c, eye coordinates */
-    float diameter;                /* 1 d: length of occlusion and shadows */
-    float light[3];                /* towards the key light, eye coordinates */
+    float diameter;  /* 1 d: length of occlusion and shadows */
+    float light[3];  /* towards the key light, eye coordinates */
     enum gb_background background;
     float depth_cue;    /* share of the background colour in the farthest edges */
     float shadow_share; /* 0: no shadows */
@@ -59,11 +60,10 @@ bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
                     struct gb_error *err);
 void gb_scene_destroy(struct gb_scene *scene); /* NULL is fine */
 
-/* Adds an edge between two points in eye coordinates. */
-void gb_scene_add_edge(struct gb_scene *scene, const double from[3], const double to[3]);
-
 /* sRGB of the background, and of text and lines on it. */
 void gb_scene_background(enum gb_background background, uint8_t rgb[3]);
 void gb_scene_foreground(enum gb_background background, uint8_t rgb[3]);
+
+void gb_scene_include_arrows(struct gb_scene *scene);
 
 #endif

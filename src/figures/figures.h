@@ -6,9 +6,9 @@
 
 #include "figures/series.h"
 
-/* The table of figures.  A figure is a file figures_NAME.c with its function, a row in
- * figures.c and a line in figures_compute.h; help, checks of options and the report follow
- * from the row. */
+/* The table of figures.  A figure is a row in one of the files figures_NAME.c.  A mean of Y over
+ * X needs no more than its row; other figures have a function above it.  Help, checks of
+ * options and the report follow from the row. */
 
 enum { GB_FIGURES_DENSITIES = 64 };
 
@@ -52,6 +52,19 @@ typedef bool gb_figures_compute(struct gb_series *series,
                                 const struct gb_figures_input *input,
                                 struct gb_error *err);
 
+/* The usual figure: means of the groups. */
+struct gb_figures_mean {
+    const char *branch;        /* of curve.csv; NULL: all */
+    const char *x, *y;         /* columns of curve.csv */
+    const char *over;          /* y is divided by this column; NULL: it is not */
+    const char *column, *unit; /* name of the columns: NAME_1UNIT and se_1UNIT */
+    bool runs;                 /* every run, too */
+    bool unrelaxed;            /* points that are not in equilibrium, too */
+    /* Adds more to the means; NULL: nothing. */
+    bool (*more)(struct gb_series *series, const struct gb_runset *set, const double *x,
+                 struct gb_error *err);
+};
+
 struct gb_figures_row {
     const char *name;
     const char *doc;    /* quantity against quantity */
@@ -62,11 +75,34 @@ struct gb_figures_row {
     const char *preset;              /* default scene of a contact law */
     const char *const *ignored_keys; /* runs that differ in these only are one group */
     struct gb_series_axis x, y;      /* name NULL: set by the function */
-    gb_figures_compute *compute;
+    gb_figures_compute *compute;     /* NULL: a figure of means */
+    struct gb_figures_mean mean;
 };
 
-/* All figures; the last row has no name. */
-const struct gb_figures_row *gb_figures_table(void);
+/* Axes that many figures have. */
+#define GB_FIGURES_DENSITY_AXIS                                                          \
+    {                                                                                    \
+        .name = "density", .label = "relative density <i>ρ</i>"                         \
+    }
+#define GB_FIGURES_PRESSURE_AXIS                                                         \
+    {                                                                                    \
+        .name = "p_MPa", .label = "pressure <i>p</i> (MPa)"                              \
+    }
+
+/* Keys of what follows the loading branch. */
+extern const char *const gb_figures_after_loading[];
+
+extern const struct gb_figures_row gb_figures_means_rows[];
+extern const struct gb_figures_row gb_figures_rates_rows[];
+extern const struct gb_figures_row gb_figures_runs_rows[];
+extern const struct gb_figures_row gb_figures_packings_rows[];
+extern const struct gb_figures_row gb_figures_die_rows[];
+extern const struct gb_figures_row gb_figures_laws_rows[];
+extern const struct gb_figures_row gb_figures_compacts_rows[];
+extern const struct gb_figures_row gb_figures_chart_rows[];
+
+/* Figure 0, 1, ...; NULL after the last. */
+const struct gb_figures_row *gb_figures_at(size_t number);
 /* NULL: no figure of this name. */
 const struct gb_figures_row *gb_figures_find(const char *name);
 /* Groups runs that differ in the ignored keys of the row only. */

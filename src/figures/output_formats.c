@@ -5,7 +5,7 @@
 #include "base/built_with.h"
 
 #if GB_WITH_PICTURES
-#include "figures/sequence/frame_writer.h"
+#include "figures/frame_writer.h"
 #define FRAMES(writer) .frames = &(writer)
 #else
 #define FRAMES(writer) .frames = NULL

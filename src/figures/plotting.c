@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/read_file.h"
 #include "figures/output_formats.h"
-#include "figures/provenance.h"
+#include "figures/states.h"
 #include "io/rundir_files.h"
 
 /* "x.png" -> "x.csv"; g_free. */
@@ -80,7 +80,7 @@ static bool write_figure(const struct gb_series *series,
     struct gb_figure_curve *curves = NULL;
     char *title = page->title != NULL ? g_markup_escape_text(page->title, -1) : NULL;
     char *preset = page->set != NULL && page->set->count > 0
-                       ? gb_provenance_preset(page->set->run[0].directory)
+                       ? gb_states_preset(page->set->run[0].directory)
                        : NULL;
     char *runs = run_list(page->set);
     gb_series_figure(series, &figure, &curves);

@@ -13,7 +13,7 @@ struct gb_plotting_page {
     const char *title;                  /* plain text; NULL: none */
     const struct gb_runset *set;        /* source; NULL: contact laws */
     enum gb_plotting_existing existing; /* of a CSV with other data beside the figure */
-    int per_inch;                       /* in print; 0: none (print_size.h) */
+    int per_inch;                       /* in print; 0: none (image.h) */
 };
 
 /* Checks the targets before the work: extension, folder, and an existing output.  Errors:

@@ -1,10 +1,9 @@
 #ifndef GB_FIGURES_SERIES_H
 #define GB_FIGURES_SERIES_H
 
+#include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
-
-#include <glib.h>
 
 #include "draw/figure/figure.h"
 #include "greenbody/status.h"
@@ -112,5 +111,54 @@ bool gb_series_mean(const struct gb_series_sample *sample, const struct gb_runse
 /* The grid as the first column, under a name. */
 double *gb_series_sample_grid(struct gb_series *series,
                               const struct gb_series_sample *sample, const char *name);
+
+/* All runs are dynamic.  Errors: GB_ERR_INPUT with the first other run. */
+bool gb_series_check_dynamic(const struct gb_runset *set, const char *figure,
+                             struct gb_error *err);
+
+/* All runs are dies. */
+bool gb_series_check_die(const struct gb_runset *set, const char *figure,
+                         struct gb_error *err);
+
+/* Mean relative density of a group where loading first reaches a pressure, with its
+ * standard error (NaN for one run), over the runs that reach it.  Returns their number.
+ * Errors: 0 and GB_ERR_INPUT when no run reaches it. */
+size_t gb_series_density_at_pressure(const struct gb_runset *set, size_t group,
+                                     double pressure_mpa, double *mean, double *error,
+                                     struct gb_error *err);
+
+/* Differences of a group to the others as Pango markup, "9.7 nm, µ = 0.4"; the title of
+ * its first run for one group, or where the differences are long.  except: a key
+ * "group.key" left out (NULL: none).  g_free. */
+char *gb_series_group_label(const struct gb_runset *set, size_t group,
+                            const char *except);
+
+/* Label of an axis of a key "group.key" with the unit of its numbers ("": none): "d (nm)".
+ * g_free. */
+char *gb_series_key_label(const char *key, const char *unit);
+
+/* Comment lines with the number, runs and differences of every group.  Returns the runs of
+ * the largest group. */
+size_t gb_series_list_groups(struct gb_series *series, const struct gb_runset *set);
+
+/* The same, with the meaning of bands and bars in the caption. */
+void gb_series_note_groups(struct gb_series *series, const struct gb_runset *set);
+
+/* Columns NAME_1UNIT and se_1UNIT, and a curve, of the mean of every group over the
+ * grid. */
+bool gb_series_means(struct gb_series *series, const struct gb_series_sample *sample,
+                     const struct gb_runset *set, const double *grid, const char *name,
+                     const char *unit, struct gb_error *err);
+
+/* What a curve of means is made from: a branch and two columns of curve.csv. */
+struct gb_series_points {
+    const char *branch, *x, *y;
+};
+
+/* The points that are not in equilibrium, with hollow markers, columns and a sentence in
+ * the caption; nothing where there is none.  The columns may move: after everything that
+ * holds pointers to them. */
+bool gb_series_unrelaxed(struct gb_series *series, const struct gb_runset *set,
+                         const struct gb_series_points *axes, struct gb_error *err);
 
 #endif

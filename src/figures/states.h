@@ -1,10 +1,10 @@
 #ifndef GB_FIGURES_STATES_H
 #define GB_FIGURES_STATES_H
 
+#include <glib.h>
 #include <stdbool.h>
 
-#include <glib.h>
-
+#include "figures/figures.h"
 #include "io/state/state.h"
 #include "scene/field/keep_points.h"
 
@@ -24,5 +24,29 @@ GPtrArray *gb_states_along(const char *source, struct gb_error *err);
 /* The same, or for each of the points the state nearest to it, as gb_states_read. */
 GPtrArray *gb_states_select(const char *source, const struct gb_keep_points *points,
                             struct gb_error *err);
+
+/* Text of preset.ini of a run directory, or of the run of a state file (in the directory or
+ * in its folder snapshots); NULL: none.  g_free. */
+char *gb_states_preset(const char *path);
+
+/* One kept state per run of a set. */
+struct gb_states_set {
+    struct gb_state **state; /* in the order of the runs */
+    size_t count;
+};
+
+/* Reads the states at the point of the input.  Errors: those of gb_states_read. */
+bool gb_states_set_read(struct gb_states_set *states,
+                        const struct gb_figures_input *input, struct gb_error *err);
+
+void gb_states_set_finish(struct gb_states_set *states); /* zeroed is fine */
+
+/* Columns NAME_1, se_1 and a curve of the mean of every group; rows: series->rows values
+ * of each run. */
+void gb_states_set_means(struct gb_series *series, const struct gb_runset *set,
+                         const double *rows, const double *x, const char *name);
+
+/* Range of density and pressure of the states as a sentence of the caption. */
+void gb_states_set_caption(struct gb_series *series, const struct gb_states_set *states);
 
 #endif

@@ -3,7 +3,7 @@
 #include <glib/gstdio.h>
 #include <string.h>
 
-#include "draw/image/apng.h"
+#include "draw/image/png.h"
 
 enum { WIDTH = 40, HEIGHT = 30, FRAMES = 3 };
 
@@ -32,17 +32,17 @@ static void dot(struct gb_image *image, int x, int y)
 static void write_film(const char *path)
 {
     const struct gb_png_text text = {"Seed", "7"};
-    struct gb_apng *apng = NULL;
+    struct gb_png_animation *apng = NULL;
     struct gb_error err = {0};
     struct gb_image *image = canvas();
-    g_assert_true(gb_apng_create(&apng, FRAMES, true, &text, 1, &err));
-    g_assert_true(gb_apng_add(apng, image, 125, &err));
+    g_assert_true(gb_png_animation_create(&apng, FRAMES, true, &text, 1, &err));
+    g_assert_true(gb_png_animation_add(apng, image, 125, &err));
     dot(image, 5, 7);
     dot(image, 20, 11);
-    g_assert_true(gb_apng_add(apng, image, 125, &err));
-    g_assert_true(gb_apng_add(apng, image, 1500, &err)); /* nothing new */
-    g_assert_true(gb_apng_write(apng, path, &err));
-    gb_apng_destroy(apng);
+    g_assert_true(gb_png_animation_add(apng, image, 125, &err));
+    g_assert_true(gb_png_animation_add(apng, image, 1500, &err)); /* nothing new */
+    g_assert_true(gb_png_animation_write(apng, path, &err));
+    gb_png_animation_destroy(apng);
     gb_image_destroy(image);
 }
 

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "draw/figure/figure_curve.h"
-#include "draw/figure/figure_marker.h"
 
 enum { WIDE = 800, HIGH = 600, POINTS = 50 };
 
@@ -143,7 +142,7 @@ static double distance_to(const uint8_t *rgba, int style)
 {
     double rgb[3];
     double sum = 0.0;
-    gb_figure_marker_colour(style, rgb);
+    gb_figure_curve_colour(style, rgb);
     for (int k = 0; k < 3; k++) {
         sum += fabs(rgba[k] / 255.0 - rgb[k]);
     }
@@ -385,11 +384,11 @@ static void test_styles(void)
 {
     for (int a = 0; a < GB_FIGURE_STYLES; a++) {
         double one[3];
-        gb_figure_marker_colour(a, one);
+        gb_figure_curve_colour(a, one);
         g_assert_cmpfloat(0.299 * one[0] + 0.587 * one[1] + 0.114 * one[2], <, 0.75);
         for (int b = 0; b < a; b++) {
             double two[3];
-            gb_figure_marker_colour(b, two);
+            gb_figure_curve_colour(b, two);
             g_assert_cmpfloat(fabs(one[0] - two[0]) + fabs(one[1] - two[1]) +
                                   fabs(one[2] - two[2]),
                               >, 0.3);
@@ -402,18 +401,18 @@ static void test_black(void)
 {
     for (int k = 0; k < 2 * GB_FIGURE_STYLES; k++) {
         double coloured[3], black[3];
-        gb_figure_marker_colour(k, coloured);
-        gb_figure_marker_colour(gb_figure_black(k), black);
+        gb_figure_curve_colour(k, coloured);
+        gb_figure_curve_colour(gb_figure_black(k), black);
         for (int c = 0; c < 3; c++) {
             g_assert_cmpfloat_with_epsilon(
                 255.0 * coloured[c], gb_figure_colours[k % GB_FIGURE_STYLES][c], 1e-9);
             g_assert_cmpfloat_with_epsilon(255.0 * black[c], gb_figure_colours_black[c],
                                            1e-9);
         }
-        g_assert_cmpint(gb_figure_marker_shape(gb_figure_black(k)), ==,
-                        gb_figure_marker_shape(k));
-        g_assert_cmpint(gb_figure_marker_round(gb_figure_black(k)), ==,
-                        gb_figure_marker_round(k));
+        g_assert_cmpint(gb_figure_curve_shape(gb_figure_black(k)), ==,
+                        gb_figure_curve_shape(k));
+        g_assert_cmpint(gb_figure_curve_round(gb_figure_black(k)), ==,
+                        gb_figure_curve_round(k));
     }
 }
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "draw/figure/figure.h"
-#include "draw/image/print_size.h"
+#include "draw/image/image.h"
 
 enum { POINTS = 60, CURVES = 6, WIDE = 945, HIGH = 709, PER_INCH = 300 }; /* 8 cm */
 

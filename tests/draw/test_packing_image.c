@@ -9,7 +9,7 @@
 
 #include "draw/image/palette.h"
 #include "draw/image/png.h"
-#include "draw/style/picture_style_parse.h"
+#include "draw/picture_style.h"
 
 /* The coordination number whose colour has the hue nearest to a lit pixel. */
 static int nearest_contacts(const uint8_t *pixel)
@@ -19,7 +19,7 @@ static int nearest_contacts(const uint8_t *pixel)
     const double size = hypot(hypot(pixel[0], pixel[1]), pixel[2]);
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
-        gb_palette_contacts(k, rgb);
+        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
         const double full = hypot(hypot(rgb[0], rgb[1]), rgb[2]);
         double far = 0.0;
         for (int c = 0; c < 3; c++) {

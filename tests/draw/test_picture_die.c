@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/caption/load_label.h"
+#include "draw/caption.h"
 
 /* The packing in a die of radius 5 with a punch on it. */
 static struct gb_state *make_die(void)
@@ -98,8 +98,8 @@ static void test_arrow(void)
 {
     static const double pressed[][3] = {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0, 0, 0}};
     static const int arrows[] = {1, 2, 0, 0};
-    static const enum gb_caption_layout_crop crops[] = {GB_CAPTION_LAYOUT_NO_CROP,
-                                                        GB_CAPTION_LAYOUT_CROP_BOTH};
+    static const enum gb_caption_crop crops[] = {GB_CAPTION_NO_CROP,
+                                                        GB_CAPTION_CROP_BOTH};
     struct gb_state *state = small_packing_make(3);
     for (size_t k = 0; k < 2 * G_N_ELEMENTS(pressed); k++) {
         struct gb_packing_image packing_image = page("corner");
@@ -164,7 +164,7 @@ static void test_die_arrow(void)
 
 /* The word of pressing stands beside its arrow, within the page, and no line of box or die and
  * no particle is behind it; its letters are there. */
-static void check_word(size_t k, enum gb_caption_layout_crop crop,
+static void check_word(size_t k, enum gb_caption_crop crop,
                        const struct gb_state *state)
 {
     static const char *const views[] = {"corner", "front", "side", "-58,35", "20,50"};
@@ -174,9 +174,9 @@ static void check_word(size_t k, enum gb_caption_layout_crop crop,
     packing_image.crop = crop;
     struct gb_scene *scene = small_packing_scene(&packing_image, state, &layout);
     const double unit = layout.unit;
-    g_assert_cmpint(gb_load_label_arrow(scene->arrow[0], scene->arrows), ==,
+    g_assert_cmpint(gb_caption_load_arrow(scene->arrow[0], scene->arrows), ==,
                     scene->arrows - 1);
-    gb_load_label_find(scene, scene->arrows - 1, unit, layout.width, 2.15 * unit, &word);
+    gb_caption_load_word(scene, scene->arrows - 1, unit, layout.width, 2.15 * unit, &word);
     const struct gb_frame arrow = arrow_frame(scene, scene->arrows - 1);
     g_assert_cmpfloat(word.left, >, 0.0);
     g_assert_cmpfloat(word.left + word.width, <, layout.width);
@@ -210,9 +210,9 @@ static void test_word(void)
     struct gb_state *cell = small_packing_make(3);
     cell->pressed[1] = cell->pressed[2] = 1.0;
     for (size_t k = 0; k < 5; k++) {
-        check_word(k, GB_CAPTION_LAYOUT_NO_CROP, state);
-        check_word(k, GB_CAPTION_LAYOUT_CROP_BOTH, state);
-        check_word(k, GB_CAPTION_LAYOUT_CROP_BOTH, cell);
+        check_word(k, GB_CAPTION_NO_CROP, state);
+        check_word(k, GB_CAPTION_CROP_BOTH, state);
+        check_word(k, GB_CAPTION_CROP_BOTH, cell);
     }
     gb_state_destroy(cell);
     gb_state_destroy(state);
@@ -269,7 +269,7 @@ static void test_funnel(void)
     struct gb_packing_image packing_image = page("corner");
     struct gb_caption_layout layout;
     double high = 0.0, wide = 0.0;
-    packing_image.crop = GB_CAPTION_LAYOUT_CROP_BOTH;
+    packing_image.crop = GB_CAPTION_CROP_BOTH;
     state->punch_height = (double)NAN;
     state->funnel_height = 6.0;
     state->funnel_outlet = 3.0;

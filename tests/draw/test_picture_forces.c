@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/caption/caption_layout.h"
+#include "draw/caption.h"
 #include "pack/die/die.h"
 
 /* Two particles one behind the other, pressed: seen from the side the rod between them
@@ -97,7 +97,7 @@ static void test_rod_scale(void)
     }
     const int shown = thickness(image, pixel[0], pixel[1]);
     g_assert_cmpint(shown, >, 10);
-    const double step = GB_CAPTION_LAYOUT_LEGEND_LINE * layout.unit;
+    const double step = GB_CAPTION_LEGEND_LINE * layout.unit;
     static const double ratio[] = {1.0, 0.5, 0.2};
     for (int k = 0; k < 3; k++) {
         const int drawn = thickness(image, layout.legend.left + 0.95 * layout.unit,

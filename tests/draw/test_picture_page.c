@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/caption/caption.h"
+#include "draw/caption.h"
+#include "draw/image/image.h"
 #include "draw/image/palette.h"
-#include "draw/image/print_size.h"
-#include "draw/style/picture_colours.h"
+#include "draw/picture_colours.h"
 
 static void test_colour_bar(void)
 {
@@ -24,7 +24,7 @@ static void test_colour_bar(void)
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
         const double y = layout.bar.top + layout.bar.height - (k + 0.5) * step;
-        gb_palette_contacts(k, rgb);
+        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
         const uint8_t *pixel =
             small_packing_pixel(image, layout.bar.left + 0.5 * layout.bar.width, y);
         g_assert_cmpint(memcmp(pixel, rgb, 3), ==, 0);
@@ -49,7 +49,7 @@ static void test_one_value(void)
     }
     struct gb_image *image = small_packing_paint(&packing_image, state);
     gb_scene_destroy(small_packing_scene(&packing_image, state, &layout));
-    gb_palette_field(0.5, rgb);
+    gb_palette_value(NULL, 0.5, rgb);
     for (double part = 0.05; part < 1.0; part += 0.1) {
         const uint8_t *pixel =
             small_packing_pixel(image, layout.bar.left + 0.5 * layout.bar.width,
@@ -145,7 +145,7 @@ static void test_crop(void)
         gb_packing_image_init(&packing_image);
         packing_image.width = 400;
         packing_image.height = 300;
-        packing_image.crop = GB_CAPTION_LAYOUT_CROP_BOTH;
+        packing_image.crop = GB_CAPTION_CROP_BOTH;
         g_assert_true(gb_view_parse(views[k / 3], &packing_image.viewpoint, NULL));
         struct gb_caption_layout layout;
         struct gb_scene *scene = small_packing_scene(&packing_image, state, &layout);
@@ -170,7 +170,7 @@ static void test_crop(void)
         packing_image.width = 315;
         packing_image.height = 300;
         packing_image.per_inch = 100;
-        packing_image.crop = GB_CAPTION_LAYOUT_CROP_HEIGHT;
+        packing_image.crop = GB_CAPTION_CROP_HEIGHT;
         image = small_packing_paint(&packing_image, state);
         g_assert_cmpint(image->width, ==, 315);
         g_assert_cmpint(image->height, <=, (int)(1.25 * 315) + 1);
@@ -188,10 +188,10 @@ static void test_print_size(void)
     static const char *const widths[] = {"8cm", "80 mm", "3.149606in"};
     for (size_t i = 0; i < G_N_ELEMENTS(widths); i++) {
         for (int per_inch = 150; per_inch <= 600; per_inch *= 2) {
-            struct gb_print_size size;
+            struct gb_image_print size;
             struct gb_caption_layout layout;
             struct gb_error err = {0};
-            g_assert_true(gb_print_size_parse(widths[i], per_inch, &size, &err));
+            g_assert_true(gb_image_parse_print(widths[i], per_inch, &size, &err));
             g_assert_cmpint(size.width, ==, (int)round(8.0 / 2.54 * per_inch));
             g_assert_cmpint(size.height, ==, (int)round(0.75 * size.width));
             const struct gb_caption_page page = {.width = size.width,
@@ -200,7 +200,7 @@ static void test_print_size(void)
                                                  .annotated = true,
                                                  .bar = true,
                                                  .aspect = 0.5};
-            gb_caption_layout_arrange(&page, &layout);
+            gb_caption_arrange(&page, &layout);
             const double point = per_inch / 72.0;
             g_assert_cmpfloat(layout.unit, >=, 7.0 * point);
             g_assert_cmpfloat(0.85 * layout.unit, >=, 6.0 * point); /* the smallest */
@@ -238,15 +238,15 @@ static void test_glyph_height(void)
     state->pressed[2] = 1.0;
     for (int per_inch = 300; per_inch <= 600; per_inch += 300) {
         struct gb_packing_image packing_image;
-        struct gb_print_size size;
+        struct gb_image_print size;
         struct gb_caption_layout layout;
         struct gb_error err = {0};
         gb_packing_image_init(&packing_image);
-        g_assert_true(gb_print_size_parse("8cm", per_inch, &size, &err));
+        g_assert_true(gb_image_parse_print("8cm", per_inch, &size, &err));
         packing_image.width = size.width;
         packing_image.height = size.height;
         packing_image.per_inch = per_inch;
-        packing_image.crop = GB_CAPTION_LAYOUT_CROP_HEIGHT;
+        packing_image.crop = GB_CAPTION_CROP_HEIGHT;
         struct gb_image *image = small_packing_paint(&packing_image, state);
         struct gb_scene *scene = small_packing_scene(&packing_image, state, &layout);
         const double ticks = layout.bar.left + layout.bar.width + 0.5 * layout.unit;
@@ -276,16 +276,16 @@ static void test_print_size_columns(void)
     } columns[] = {{"elsevier", 90.0}, {"elsevier-1.5", 140.0}, {"elsevier-2", 190.0},
                    {"aps", 86.0},      {"nature-2", 183.0},     {"rsc", 83.0}};
     struct gb_error err = {0};
-    struct gb_print_size size;
+    struct gb_image_print size;
     for (size_t i = 0; i < G_N_ELEMENTS(columns); i++) {
-        g_assert_true(gb_print_size_parse(columns[i].name, 600, &size, &err));
+        g_assert_true(gb_image_parse_print(columns[i].name, 600, &size, &err));
         g_assert_cmpint(size.width, ==, (int)round(columns[i].mm / 25.4 * 600.0));
     }
-    for (const struct gb_print_size_journal *row = gb_print_size_journals;
-         row->name != NULL; row++) {
+    for (const struct gb_image_journal *row = gb_image_journals; row->name != NULL;
+         row++) {
         char *middle = g_strconcat(row->name, "-1.5", NULL);
-        g_assert_true(gb_print_size_parse(row->name, 300, &size, &err));
-        g_assert_cmpint(gb_print_size_parse(middle, 300, &size, NULL), ==,
+        g_assert_true(gb_image_parse_print(row->name, 300, &size, &err));
+        g_assert_cmpint(gb_image_parse_print(middle, 300, &size, NULL), ==,
                         row->middle_mm > 0.0);
         g_assert_cmpfloat(row->single_mm, <, row->double_mm);
         g_free(middle);
@@ -305,10 +305,10 @@ static void test_print_size_refused(void)
         {"elsevier90", 300, "elsevier-1.5"}, {"", 300, "8cm"},
         {"-8cm", 300, "2.54 and 50 cm"},     {"50cm", 1200, "16384"}};
     for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
-        struct gb_print_size size;
+        struct gb_image_print size;
         struct gb_error err = {0};
         g_assert_false(
-            gb_print_size_parse(wrong[i].width, wrong[i].per_inch, &size, &err));
+            gb_image_parse_print(wrong[i].width, wrong[i].per_inch, &size, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         if (!strstr(err.text, wrong[i].text)) {
             g_error("%s: without %s", err.text, wrong[i].text);

@@ -1,14 +1,13 @@
 /* Style of a picture: colours, hidden particles, rods; without a renderer. */
-#include "draw/style/picture_style.h"
+#include "draw/picture_style.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
 
 #include "draw/image/palette.h"
+#include "draw/picture_colours.h"
 #include "io/state/state_stress.h"
-#include "draw/style/picture_colours.h"
-#include "draw/style/picture_style_parse.h"
 
 /* Four particles in a row along z; the last touches the first through the wall.  The
  * contacts press with 1, 2, pull with 0.5, and press with 0 over the wall. */
@@ -102,16 +101,16 @@ static void test_colours(void)
     g_assert_cmpstr(style->scale.title, ==, "diameter (nm)");
     g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(style->scale.high, 16.0, 1e-9);
-    gb_palette_field(0.0, rgb);
+    gb_palette_value(NULL, 0.0, rgb);
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
-    gb_palette_field(1.0, rgb);
+    gb_palette_value(NULL, 1.0, rgb);
     g_assert_cmpint(memcmp(style->colour + 9, rgb, 3), ==, 0);
     gb_picture_style_destroy(style);
     request.particles = gb_picture_colours_find("bridges");
     style = create_style(state, &request);
-    gb_palette_contacts(1, rgb);
+    gb_palette_value(NULL, 1.0 / GB_PALETTE_CONTACTS, rgb);
     g_assert_cmpint(memcmp(style->colour + 3, rgb, 3), ==, 0);
-    gb_palette_contacts(0, rgb);
+    gb_palette_value(NULL, 0.0, rgb);
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
     gb_picture_style_destroy(style);
     gb_state_destroy(state);
@@ -133,7 +132,7 @@ static void test_one_size(void)
     g_assert_cmpfloat(style->scale.low, ==, style->scale.high);
     g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
     g_assert_false(style->scale.below || style->scale.above);
-    gb_palette_field(0.5, rgb);
+    gb_palette_value(NULL, 0.5, rgb);
     for (int i = 0; i < 4; i++) {
         g_assert_cmpint(memcmp(style->colour + 3 * i, rgb, 3), ==, 0);
     }
@@ -226,9 +225,9 @@ static void test_range_given(void)
     g_assert_cmpfloat_with_epsilon(style->scale.low, 20.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(style->scale.high, 50.0, 1e-9);
     g_assert_true(style->scale.below && style->scale.above);
-    gb_palette_field(0.0, rgb);
+    gb_palette_value(NULL, 0.0, rgb);
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
-    gb_palette_field(1.0, rgb);
+    gb_palette_value(NULL, 1.0, rgb);
     g_assert_cmpint(memcmp(style->colour + 3 * 99, rgb, 3), ==, 0);
     gb_picture_style_destroy(style);
     gb_state_destroy(state);
@@ -263,7 +262,7 @@ static void test_log(void)
     g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(style->scale.high, 1e4, 1e-6);
     for (int i = 0; i < 4; i++) {
-        gb_palette_field(i / 3.0, rgb);
+        gb_palette_value(NULL, i / 3.0, rgb);
         g_assert_cmpint(memcmp(style->colour + 3 * i, rgb, 3), ==, 0);
     }
     gb_picture_style_destroy(style);

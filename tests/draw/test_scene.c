@@ -159,16 +159,16 @@ static void test_palette(void)
     uint8_t beyond[3];
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
-        gb_palette_contacts(k, rgb);
+        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
         const double light = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
         g_assert_cmpfloat(light, >, last + 5.0);
         last = light;
     }
-    gb_palette_contacts(GB_PALETTE_CONTACTS, top);
-    gb_palette_contacts(100, beyond);
+    gb_palette_value(NULL, 1.0, top);
+    gb_palette_value(NULL, 100.0, beyond);
     g_assert_cmpint(memcmp(top, beyond, 3), ==, 0);
-    gb_palette_contacts(0, top);
-    gb_palette_contacts(-3, beyond);
+    gb_palette_value(NULL, 0.0, top);
+    gb_palette_value(NULL, -3.0 / GB_PALETTE_CONTACTS, beyond);
     g_assert_cmpint(memcmp(top, beyond, 3), ==, 0);
 }
 
@@ -185,7 +185,7 @@ static void test_scene(void)
     g_assert_cmpint(scene->edge_count, ==, 12);
     for (int k = 0; k < 3; k++) {
         uint8_t rgb[3];
-        gb_palette_contacts(6 * k, rgb);
+        gb_palette_value(NULL, (double)(6 * k) / GB_PALETTE_CONTACTS, rgb);
         g_assert_cmpint(memcmp(rgb, &scene->colour[4 * k], 3), ==, 0);
         g_assert_cmpfloat(scene->sphere[4 * k + 3], ==, 0.5F);
     }

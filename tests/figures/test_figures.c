@@ -69,7 +69,8 @@ static const char *const *words_of(const struct gb_figures_row *row)
 /* Every row draws. */
 static void test_rows(void)
 {
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row = NULL;
+    for (size_t k = 0; (row = gb_figures_at(k)) != NULL; k++) {
         struct gb_series series = {0};
         struct gb_error err = {0};
         const bool done = row->takes == GB_FIGURES_SCENE
@@ -86,7 +87,8 @@ static void test_rows(void)
 static void test_errors(void)
 {
     static const char *const empty[] = {"empty", NULL};
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row = NULL;
+    for (size_t k = 0; (row = gb_figures_at(k)) != NULL; k++) {
         struct gb_series series = {0};
         struct gb_error err = {0};
         if (row->takes == GB_FIGURES_SCENE) {
@@ -103,12 +105,13 @@ static void test_errors(void)
 
 static void test_table(void)
 {
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row = NULL;
+    for (size_t k = 0; (row = gb_figures_at(k)) != NULL; k++) {
         struct gb_error err = {0};
         char *text = gb_figures_describe(row);
         g_assert_cmpuint(strlen(text), <=, 90);
         g_assert_true(gb_figures_find(row->name) == row);
-        g_assert_nonnull(row->compute);
+        g_assert_true(row->compute != NULL || row->mean.y != NULL);
         g_assert_true((row->takes == GB_FIGURES_SCENE) == (row->preset != NULL));
         g_assert_true(gb_figures_check_options(row, row->options, &err));
         g_free(text);

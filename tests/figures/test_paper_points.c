@@ -5,8 +5,7 @@
 #include <glib.h>
 
 #include "common/tree.h"
-#include "figures/papers/paper_points.h"
-#include "figures/papers/papers_figures.h"
+#include "figures/papers_figures.h"
 
 /* Every number that is drawn has a figure of runs with both axes, and a label. */
 static void test_numbers(void)
@@ -46,7 +45,7 @@ static size_t add(struct gb_series *series, const char *figure, const char *expe
     g_assert_true(change == NULL || gb_params_assign(&run.params, change, &err));
     gb_series_init(series, 1);
     gb_figures_axes(row, series);
-    g_assert_true(gb_paper_points_add(series, row, &set, &drawn, &err));
+    g_assert_true(gb_papers_figures_add(series, row, &set, &drawn, &err));
     return drawn;
 }
 

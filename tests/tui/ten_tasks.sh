@@ -165,7 +165,7 @@ told "$what: the setting" 'setting of the chart: '
 end_task
 keys X
 told "$what: it is stopped" 'chart: \(cancelled\|stopped\)'
-is "$what: the setting has run" until_true has '✓ done'
+is "$what: the setting has run" until_true has '[✓!] done'
 
 begin_task 7 'a picture 8 cm wide of forces'
 press

@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/signals.h"
-#include "figures/card/card_page.h"
+#include "figures/card_page.h"
 #include "study/card/card_files.h"
 
 /* The options of the command line. */

@@ -12,7 +12,7 @@
 #include "cli/options.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
-#include "figures/runs/compaction_series.h"
+#include "figures/compaction_series.h"
 #include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 

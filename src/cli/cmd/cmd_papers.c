@@ -8,7 +8,7 @@
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "figures/papers/papers_figures.h"
+#include "figures/papers_figures.h"
 #include "run/cost.h"
 #include "study/papers/papers.h"
 

@@ -14,7 +14,7 @@
 #include "cli/page_options.h"
 #include "figures/figures.h"
 #include "figures/output_formats.h"
-#include "figures/papers/paper_points.h"
+#include "figures/papers_figures.h"
 #include "figures/plotting.h"
 #include "many/runset.h"
 
@@ -204,7 +204,7 @@ static bool add_paper(struct gb_series *series, const struct request *request,
     if (!request->paper) {
         return true;
     }
-    return (set == NULL || gb_paper_points_add(series, figure, set, &drawn, err)) &&
+    return (set == NULL || gb_papers_figures_add(series, figure, set, &drawn, err)) &&
            (drawn > 0 ||
             gb_error_set(err, GB_ERR_INPUT,
                          "--paper: the papers print no number for the figure %s of these "
@@ -298,7 +298,8 @@ static bool plot(const struct request *request, char **words, struct gb_error *e
 static char *describe_figures(void)
 {
     GString *text = g_string_new("Figures:\n");
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row = NULL;
+    for (size_t k = 0; (row = gb_figures_at(k)) != NULL; k++) {
         char *line = gb_figures_describe(row);
         g_string_append_printf(text, "  %-20s %s\n", row->name, line);
         g_free(line);

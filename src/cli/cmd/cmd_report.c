@@ -21,11 +21,12 @@ static bool read_data(struct gb_table **table, const struct measured *measured,
                       struct gb_error *err)
 {
     GPtrArray *axes = g_ptr_array_new();
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row = NULL;
+    for (size_t k = 0; (row = gb_figures_at(k)) != NULL; k++) {
         const char *const names[] = {row->x.name, row->y.name};
-        for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
-            if (names[k] != NULL) {
-                g_ptr_array_add(axes, (char *)(uintptr_t)names[k]);
+        for (size_t axis = 0; axis < G_N_ELEMENTS(names); axis++) {
+            if (names[axis] != NULL) {
+                g_ptr_array_add(axes, (char *)(uintptr_t)names[axis]);
             }
         }
     }

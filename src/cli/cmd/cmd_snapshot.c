@@ -12,12 +12,11 @@
 
 #if GB_WITH_PICTURES
 
-#include "draw/packing_panels.h"
-#include "draw/style/picture_colours.h"
-#include "draw/style/picture_style_parse.h"
+#include "draw/packing_image.h"
+#include "draw/picture_colours.h"
+#include "draw/picture_style.h"
 #include "figures/output_formats.h"
-#include "figures/provenance.h"
-#include "figures/sequence/sequence.h"
+#include "figures/sequence.h"
 #include "figures/states.h"
 #include "io/rundir_files.h"
 
@@ -78,9 +77,9 @@ static bool parse_request(const struct request *request,
 {
     gb_packing_image_init(packing_image);
     packing_image->annotated = !request->bare;
-    packing_image->crop = request->page.size != NULL    ? GB_CAPTION_LAYOUT_NO_CROP
-                          : request->page.width != NULL ? GB_CAPTION_LAYOUT_CROP_HEIGHT
-                                                        : GB_CAPTION_LAYOUT_CROP_BOTH;
+    packing_image->crop = request->page.size != NULL    ? GB_CAPTION_NO_CROP
+                          : request->page.width != NULL ? GB_CAPTION_CROP_HEIGHT
+                                                        : GB_CAPTION_CROP_BOTH;
     if (request->output == NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "snapshot needs -o FILE.png for the picture");
@@ -111,7 +110,7 @@ static bool read_since(struct gb_state **out, const char *since, const char *pat
     return gb_states_read(out, is_path ? since : path, is_path ? NULL : since, err);
 }
 
-enum { PATHS_MAX = GB_PACKING_PANELS_ROWS };
+enum { PATHS_MAX = GB_PACKING_IMAGE_ROWS };
 
 /* The states of all paths. */
 static bool read_states(struct gb_state **states, const struct request *request,
@@ -130,16 +129,16 @@ static bool write_picture(const struct request *request,
 {
     struct gb_state *states[PATHS_MAX] = {NULL};
     struct gb_state *since = NULL;
-    char *preset = gb_provenance_preset(paths[0]);
+    char *preset = gb_states_preset(paths[0]);
     bool done =
         read_states(states, request, paths, err) &&
         (request->since == NULL || read_since(&since, request->since, paths[0], err));
     if (done) {
         packing_image->preset = preset;
         packing_image->style.since = since;
-        done = gb_packing_panels_write(
+        done = gb_packing_image_write_panels(
             packing_image,
-            request->rose ? GB_PACKING_PANELS_WITH_ROSE : GB_PACKING_PANELS_PACKING,
+            request->rose ? GB_PACKING_IMAGE_WITH_ROSE : GB_PACKING_IMAGE_ALONE,
             states, g_strv_length(paths), request->output, err);
     }
     for (int i = 0; i < PATHS_MAX; i++) {

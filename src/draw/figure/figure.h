@@ -3,12 +3,24 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "draw/figure/figure_axis.h"
-#include "draw/figure/figure_colours.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
 #include "greenbody/status.h"
+
+/* Colours of the curves of figures, sRGB: sky blue, orange, green, purple, red, blue, the
+ * hues of the workbench (tui/term/term_theme.c) in its order.  Two of them, or one and
+ * black, differ by 14 at least in CIEDE2000, also for protanopia, deuteranopia and tritanopia
+ * (matrices of Machado et al. 2009); contrast with white 2.8 at least.
+ * tests/draw/test_figure_colours.c computes both. */
+enum { GB_FIGURE_COLOURS = 6 };
+
+extern const uint8_t gb_figure_colours[GB_FIGURE_COLOURS][3];
+
+/* Of measured points and of lines that are no run. */
+extern const uint8_t gb_figure_colours_black[3];
 
 /* Figures for print: curves, bands and points over two axes.  Colour, dashes and markers
  * all differ, for colour-blind readers and black-and-white print.  All texts are Pango
@@ -84,7 +96,7 @@ struct gb_figure {
     const char *title, *caption;     /* NULL: none */
     struct gb_figure_axis x, y;
     struct gb_figure_second_axis top, right;
-    int per_inch; /* pixels in print, whose letters have their size there (print_size.h);
+    int per_inch;      /* pixels in print, whose letters have their size there (image.h);
                    * 0: a page of a size of its own */
     bool equal_scales; /* of linear axes in one unit: directions keep their angles */
     const struct gb_figure_curve *curve;

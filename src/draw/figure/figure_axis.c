@@ -5,13 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "draw/style/round_number.h"
+#include "base/number.h"
 
-#define MINUS "\xe2\x88\x92"
+#define MINUS "−"
 
-void gb_figure_axis_number(double value, int decimals, char *text, size_t size)
+/* A number in typographic form: "−0.25"; decimals after the point. */
+static void write_number(double value, int decimals, char *text, size_t size)
 {
-    char plain[64];
+    char plain[36];
     snprintf(plain, sizeof plain, "%.*f", decimals, fabs(value));
     const bool zero = strspn(plain, "0.") == strlen(plain);
     snprintf(text, size, "%s%s", value < 0.0 && !zero ? MINUS : "", plain);
@@ -44,7 +45,7 @@ static void put_minor(struct gb_figure_axis_scale *scale, double value)
 /* Tick step; *parts: number of minor steps in it. */
 static double tick_step(double rough, int *parts)
 {
-    const double step = gb_round_number_step(rough);
+    const double step = gb_number_nearest_step(rough);
     *parts = lround(step / pow(10.0, floor(log10(step) + 1e-9))) == 2 ? 4 : 5;
     return step;
 }
@@ -80,7 +81,7 @@ static void fit_linear(struct gb_figure_axis_scale *scale, int wanted,
             continue;
         }
         char text[40];
-        gb_figure_axis_number(k * part / unit, decimals, text, sizeof text);
+        write_number(k * part / unit, decimals, text, sizeof text);
         put_tick(scale, k * part, text);
     }
 }
@@ -89,8 +90,7 @@ static void fit_linear(struct gb_figure_axis_scale *scale, int wanted,
 static void decade_label(int decade, bool plain, int digit, char *text, size_t size)
 {
     if (plain) {
-        gb_figure_axis_number(digit * pow(10.0, decade), decade < 0 ? -decade : 0, text,
-                              size);
+        write_number(digit * pow(10.0, decade), decade < 0 ? -decade : 0, text, size);
     } else if (digit == 1) {
         snprintf(text, size, "10<sup>%s%d</sup>", decade < 0 ? MINUS : "", abs(decade));
     } else {

@@ -28,7 +28,4 @@ void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, enum gb_figure_axis_
 
 double gb_figure_axis_position(const struct gb_figure_axis_scale *scale, double value);
 
-/* A number in typographic form: "−0.25", "10<sup>−3</sup>"; decimals behind the point. */
-void gb_figure_axis_number(double value, int decimals, char *text, size_t size);
-
 #endif

@@ -1,10 +1,103 @@
+/* Draws one curve: its markers, its line with band, bars, steps or arrows; and a thinned copy
+ * of a curve with more points than a page can show. */
 #include "draw/figure/figure_curve.h"
 
+#include <cairo.h>
 #include <glib.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 
-#include "draw/figure/figure_marker.h"
+#include "draw/figure/figure.h"
+
+/* Colours and markers of the styles; lengths in points. */
+
+/* Radius of a disc, and of the core of markers that repeat a colour, points. */
+static const double marker_radius = 2.6;
+static const double core_radius = 1.1;
+
+/* Of a style or of a black one. */
+static int number_of(int style)
+{
+    return style < 0 ? gb_figure_black(style) : style;
+}
+
+void gb_figure_curve_colour(int style, double rgb[3])
+{
+    const uint8_t *from =
+        style < 0 ? gb_figure_colours_black : gb_figure_colours[style % GB_FIGURE_STYLES];
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = from[k] / 255.0;
+    }
+}
+
+int gb_figure_curve_round(int style)
+{
+    return number_of(style) / GB_FIGURE_STYLES;
+}
+
+int gb_figure_curve_shape(int style)
+{
+    return number_of(style) % GB_FIGURE_STYLES;
+}
+
+static void set_colour(cairo_t *cairo, int style, double alpha)
+{
+    double rgb[3];
+    gb_figure_curve_colour(style, rgb);
+    cairo_set_source_rgba(cairo, rgb[0], rgb[1], rgb[2], alpha);
+}
+
+static void outline(cairo_t *cairo, int style, const double at[2])
+{
+    static const int corners[GB_FIGURE_STYLES] = {0, 4, 3, 4, 3, 5};
+    /* disc, square, triangle up, diamond, triangle down, pentagon */
+    static const double rotation[GB_FIGURE_STYLES] = {0.0, 0.25, 0.5, 0.0, 0.0, 0.5};
+    static const double scale[GB_FIGURE_STYLES] = {1.0, 1.2, 1.3, 1.3, 1.3, 1.1};
+    const int s = gb_figure_curve_shape(style);
+    const double r = marker_radius * scale[s];
+    if (corners[s] == 0) {
+        cairo_new_sub_path(cairo);
+        cairo_arc(cairo, at[0], at[1], r, 0.0, 2.0 * M_PI);
+        return;
+    }
+    for (int k = 0; k < corners[s]; k++) {
+        const double angle =
+            2.0 * M_PI * (k + (corners[s] == 4 ? 2.0 * rotation[s] : 0.0)) / corners[s] +
+            (corners[s] == 4 ? 0.0 : M_PI * (2.0 * rotation[s] + 0.5));
+        const double x = at[0] + r * cos(angle);
+        const double y = at[1] + r * sin(angle);
+        (k == 0 ? cairo_move_to : cairo_line_to)(cairo, x, y);
+    }
+    cairo_close_path(cairo);
+}
+
+enum fill { COLOURED, WHITE };
+
+static void set_fill(cairo_t *cairo, const struct gb_figure_curve *curve, enum fill fill)
+{
+    if (fill == WHITE) {
+        cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+    } else {
+        set_colour(cairo, curve->style, 1.0);
+    }
+}
+
+static void draw_marker(cairo_t *cairo, const struct gb_figure_curve *curve,
+                        const double at[2])
+{
+    outline(cairo, curve->style, at);
+    set_fill(cairo, curve, curve->open ? WHITE : COLOURED);
+    cairo_fill_preserve(cairo);
+    set_colour(cairo, curve->style, 1.0);
+    cairo_set_line_width(cairo, 0.9);
+    cairo_stroke(cairo);
+    if (gb_figure_curve_round(curve->style) > 0) {
+        cairo_arc(cairo, at[0], at[1], core_radius, 0.0, 2.0 * M_PI);
+        set_fill(cairo, curve, curve->open ? COLOURED : WHITE);
+        cairo_fill(cairo);
+    }
+}
 
 /* Dashes in points, ended by 0. */
 static const double dashes[GB_FIGURE_STYLES][7] = {
@@ -22,8 +115,8 @@ static const double marker_distance = 46.0;
 
 static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
 {
-    const double *dash = dashes[(gb_figure_marker_shape(curve->style) +
-                                 gb_figure_marker_round(curve->style)) %
+    const double *dash = dashes[(gb_figure_curve_shape(curve->style) +
+                                 gb_figure_curve_round(curve->style)) %
                                 GB_FIGURE_STYLES];
     const bool faint = curve->kind == GB_FIGURE_FAINT;
     const bool dashed = curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_BOTH;
@@ -34,7 +127,7 @@ static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
     cairo_set_dash(cairo, dash, dashed ? count : 0, 0.0);
     cairo_set_line_width(cairo, faint ? faint_width : line_width);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    gb_figure_marker_set_colour(cairo, curve->style, faint ? 0.45 : 1.0);
+    set_colour(cairo, curve->style, faint ? 0.45 : 1.0);
 }
 
 static bool fits(const struct gb_figure_axis_scale *scale, double value)
@@ -82,7 +175,7 @@ static void draw_band(cairo_t *cairo, const struct gb_figure_layout *layout,
                       const struct gb_figure_curve *curve)
 {
     size_t from = 0;
-    gb_figure_marker_set_colour(cairo, curve->style, 0.2);
+    set_colour(cairo, curve->style, 0.2);
     for (size_t k = 0; k <= curve->count; k++) {
         double at[2];
         const bool valid = k < curve->count &&
@@ -139,7 +232,7 @@ static void draw_steps(cairo_t *cairo, const struct gb_figure_layout *layout,
         last[1] = at[1];
     }
     cairo_line_to(cairo, last[0], floor_at);
-    gb_figure_marker_set_colour(cairo, curve->style, 0.16);
+    set_colour(cairo, curve->style, 0.16);
     cairo_fill_preserve(cairo);
     set_pen(cairo, curve);
     cairo_set_line_width(cairo, 0.6 * line_width);
@@ -151,7 +244,7 @@ static void draw_line_markers(cairo_t *cairo, const struct gb_figure_layout *lay
                               const struct gb_figure_curve *curve)
 {
     double next = marker_distance *
-                  (0.3 + 0.6 * gb_figure_marker_shape(curve->style) / GB_FIGURE_STYLES);
+                  (0.3 + 0.6 * gb_figure_curve_shape(curve->style) / GB_FIGURE_STYLES);
     double last[2] = {NAN, NAN};
     for (size_t k = 0; k < curve->count; k++) {
         double at[2];
@@ -161,7 +254,7 @@ static void draw_line_markers(cairo_t *cairo, const struct gb_figure_layout *lay
         }
         next -= isfinite(last[0]) ? hypot(at[0] - last[0], at[1] - last[1]) : 0.0;
         if (next <= 0.0) {
-            gb_figure_marker_draw(cairo, curve, at);
+            draw_marker(cairo, curve, at);
             next = marker_distance;
         }
         last[0] = at[0];
@@ -172,7 +265,7 @@ static void draw_line_markers(cairo_t *cairo, const struct gb_figure_layout *lay
 static void bar(cairo_t *cairo, const double a[2], const double b[2])
 {
     const bool vertical = a[0] == b[0];
-    const double cap = 0.7 * gb_figure_marker_radius;
+    const double cap = 0.7 * marker_radius;
     cairo_move_to(cairo, a[0], a[1]);
     cairo_line_to(cairo, b[0], b[1]);
     for (int end = 0; end < 2; end++) {
@@ -188,7 +281,7 @@ static void bar(cairo_t *cairo, const double a[2], const double b[2])
 static void draw_bars(cairo_t *cairo, const struct gb_figure_layout *layout,
                       const struct gb_figure_curve *curve, size_t k, const double at[2])
 {
-    gb_figure_marker_set_colour(cairo, curve->style, 1.0);
+    set_colour(cairo, curve->style, 1.0);
     cairo_set_line_width(cairo, bar_width);
     if (curve->error != NULL && curve->error[k] > 0.0) {
         bar(cairo, (double[2]){at[0], edge(layout, curve, k, -1.0)},
@@ -210,7 +303,7 @@ static void draw_points(cairo_t *cairo, const struct gb_figure_layout *layout,
         double at[2];
         if (gb_figure_curve_position(layout, curve, k, at)) {
             draw_bars(cairo, layout, curve, k, at);
-            gb_figure_marker_draw(cairo, curve, at);
+            draw_marker(cairo, curve, at);
         }
     }
 }
@@ -344,7 +437,7 @@ static void thin_line(struct thinned *kept, const struct gb_figure_layout *layou
  * reach into it, are one. */
 static gsize cell_of(double at, double low, double high, double width)
 {
-    const double margin = 2.0 * gb_figure_marker_radius;
+    const double margin = 2.0 * marker_radius;
     return (gsize)((fmin(fmax(at, low - margin), high + margin) - low + margin) / width);
 }
 
@@ -493,7 +586,7 @@ static void draw(cairo_t *cairo, const struct gb_figure_layout *layout,
     if (line || curve->kind == GB_FIGURE_BOTH) {
         draw_line(cairo, layout, curve);
     }
-    if (curve->kind == GB_FIGURE_LINE && gb_figure_marker_round(curve->style) > 0) {
+    if (curve->kind == GB_FIGURE_LINE && gb_figure_curve_round(curve->style) > 0) {
         draw_line_markers(cairo, layout, curve);
     }
     if (curve->kind == GB_FIGURE_STEPS) {
@@ -513,9 +606,9 @@ void gb_figure_curve_sample(cairo_t *cairo, const struct gb_figure_curve *curve,
     const double middle[2] = {x + 0.5 * width, y};
     if (curve->kind == GB_FIGURE_STEPS) {
         cairo_rectangle(cairo, x, y - 3.0, width, 6.0);
-        gb_figure_marker_set_colour(cairo, curve->style, 0.16);
+        set_colour(cairo, curve->style, 0.16);
         cairo_fill_preserve(cairo);
-        gb_figure_marker_set_colour(cairo, curve->style, 1.0);
+        set_colour(cairo, curve->style, 1.0);
         cairo_set_line_width(cairo, 0.6 * line_width);
         cairo_stroke(cairo);
         return;
@@ -528,7 +621,7 @@ void gb_figure_curve_sample(cairo_t *cairo, const struct gb_figure_curve *curve,
         cairo_set_dash(cairo, NULL, 0, 0.0);
     }
     if (curve->kind == GB_FIGURE_POINTS || curve->kind == GB_FIGURE_BOTH ||
-        (curve->kind == GB_FIGURE_LINE && gb_figure_marker_round(curve->style) > 0)) {
-        gb_figure_marker_draw(cairo, curve, middle);
+        (curve->kind == GB_FIGURE_LINE && gb_figure_curve_round(curve->style) > 0)) {
+        draw_marker(cairo, curve, middle);
     }
 }

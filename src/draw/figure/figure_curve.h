@@ -5,6 +5,16 @@
 
 #include "draw/figure/figure.h"
 
+/* sRGB, 0 to 1, of a style. */
+void gb_figure_curve_colour(int style, double rgb[3]);
+
+/* Number of earlier styles of the same colour.  Repeated colours have other dashes,
+ * markers with a core, and markers along lines. */
+int gb_figure_curve_round(int style);
+
+/* Of the marker, 0 to GB_FIGURE_STYLES - 1, also of a black style. */
+int gb_figure_curve_shape(int style);
+
 /* Curves of a figure; lengths in points. */
 
 /* Bands, bars, line, steps and markers of a curve. */

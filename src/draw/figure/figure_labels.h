@@ -1,6 +1,8 @@
 #ifndef GB_DRAW_FIGURE_FIGURE_LABELS_H
 #define GB_DRAW_FIGURE_FIGURE_LABELS_H
 
+#include <stdbool.h>
+
 #include "draw/figure/figure.h"
 #include "draw/image/text.h"
 
@@ -38,5 +40,23 @@ void gb_figure_labels_annotate(const struct gb_figure *figure,
                                const struct gb_figure_layout *layout,
                                const struct gb_text *text);
 void gb_figure_labels_finish(struct gb_figure_labels *labels); /* zeroed is fine */
+
+/* Raster of the parts of the frame that curves cover, to find free space for texts. */
+struct gb_figure_labels_room {
+    double left, top; /* of the frame, points */
+    int wide, high;   /* cells */
+    int *occupied;    /* (wide + 1) x (high + 1) counts of covered cells above and left */
+};
+
+/* Marks all curves of a figure.  g_free(room->taken) by finish. */
+void gb_figure_labels_room_init(struct gb_figure_labels_room *occupancy,
+                                const struct gb_figure *figure,
+                                const struct gb_figure_layout *layout);
+
+void gb_figure_labels_room_finish(struct gb_figure_labels_room *occupancy);
+
+/* Finds a free rectangle of the given size, as near to a corner as possible. */
+bool gb_figure_labels_room_find(const struct gb_figure_labels_room *occupancy,
+                                double wide, double high, double box[4]);
 
 #endif

@@ -16,13 +16,24 @@ struct gb_figure_page {
 };
 
 /* Font sizes and distances. */
-extern const double gb_figure_page_label_size;
-extern const double gb_figure_page_tick_size;
-extern const double gb_figure_page_title_size;
-extern const double gb_figure_page_caption_size;
-extern const double
-    gb_figure_page_least_size; /* what is reduced to fit has no smaller letters */
-extern const double gb_figure_page_gap;
+#define GB_FIGURE_PAGE_LABEL   10.0
+#define GB_FIGURE_PAGE_TICK    8.8
+#define GB_FIGURE_PAGE_TITLE   10.6
+#define GB_FIGURE_PAGE_CAPTION 8.0
+/* Letters of text that is reduced to fit are not smaller. */
+#define GB_FIGURE_PAGE_LEAST                                                             \
+    (GB_IMAGE_PRINT_TEXT_LEAST / GB_IMAGE_PRINT_TEXT * GB_FIGURE_LABELS_SIZE)
+#define GB_FIGURE_PAGE_GAP         4.0
+#define GB_FIGURE_PAGE_NAME_MARGIN 4.0 /* of a name from the edge of the page */
+#define GB_FIGURE_PAGE_BAR         62.0 /* width right of the frame that the bar of a map takes */
+
+/* Name of an axis with the power of ten of its tick labels; g_free. */
+char *gb_figure_page_name(const char *label, const struct gb_figure_axis_scale *scale);
+/* The scale of a second axis along that of the first. */
+void gb_figure_page_fit_second(const struct gb_figure_axis_scale *first, double factor,
+                               struct gb_figure_axis_scale *scale);
+/* Width right of the frame that the second axis takes; 0 without one. */
+double gb_figure_page_second_width(const struct gb_figure_page *page);
 /* Width of a title or caption: that of the page without its margins. */
 double gb_figure_page_text_width(const struct gb_figure_page *page);
 

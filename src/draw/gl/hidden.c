@@ -203,8 +203,8 @@ static bool is_cut(const struct gb_scene *scene, const float *sphere)
     bool cut = scene->cuts > 0;
     for (int k = 0; k < scene->cuts; k++) {
         const float *n = scene->cut[k];
-        cut = cut && n[0] * sphere[0] + n[1] * sphere[1] + n[2] * sphere[2] - n[3] >
-                         -sphere[3];
+        cut = cut &&
+              n[0] * sphere[0] + n[1] * sphere[1] + n[2] * sphere[2] - n[3] > -sphere[3];
     }
     return cut;
 }

@@ -12,7 +12,8 @@ enum { GB_PALETTE_CONTACTS = 12, GB_PALETTE_ANCHORS = 17 };
 struct gb_palette_map {
     const char *name, *doc;
     bool diverging; /* two arms from a light middle */
-    double start;   /* share where values begin: a nearly black end would hide the shading */
+    double
+        start; /* share where values begin: a nearly black end would hide the shading */
     uint8_t anchor[GB_PALETTE_ANCHORS][3]; /* at 0, 1/16, ..., 1 */
 };
 
@@ -25,11 +26,5 @@ void gb_palette_value(const struct gb_palette_map *map, double x, uint8_t rgb[3]
 
 /* Viridis from end to end; x is limited to [0, 1]. */
 void gb_palette_scale(double x, uint8_t rgb[3]);
-
-/* Colour of a coordination number in the default scale; below 0 counts as 0. */
-void gb_palette_contacts(int contacts, uint8_t rgb[3]);
-
-/* The same as gb_palette_value of the default scale. */
-void gb_palette_field(double x, uint8_t rgb[3]);
 
 #endif

@@ -34,4 +34,11 @@ void gb_text_write_line(const struct gb_text *text, const char *markup, double s
                         double least, double most, const double at[2],
                         const double align[2], int quarters);
 
+/* Mesa, LLVM, fontconfig, GLib and Pango print to stderr; between begin and end it is
+ * redirected to /dev/null (not thread-safe).  end takes the descriptor that begin
+ * returned. */
+int gb_text_mute_begin(void);
+
+void gb_text_mute_end(int saved);
+
 #endif

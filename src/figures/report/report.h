@@ -18,8 +18,8 @@ struct gb_report {
     GString *sums;       /* lines of SHA256SUMS */
 };
 
-/* A part of the report: a heading and a function that fills it.  A part is a file
- * report_NAME.c and a row in report.c. */
+/* A part of the report: a heading and a function that fills it.  A part is a
+ * function and a row in report.c. */
 typedef bool gb_report_part_function(struct gb_report *report, struct gb_error *err);
 
 struct gb_report_part {
@@ -32,25 +32,10 @@ struct gb_report_part {
 /* In their order; the last row has no name. */
 const struct gb_report_part *gb_report_parts(void);
 
-gb_report_part_function gb_report_results;
-gb_report_part_function gb_report_figures;
-gb_report_part_function gb_report_tables;
-gb_report_part_function gb_report_fits;
-gb_report_part_function gb_report_pictures;
-gb_report_part_function gb_report_keys;
-gb_report_part_function gb_report_references;
-gb_report_part_function gb_report_provenance;
-gb_report_part_function gb_report_preset;
-
 /* Creates the folder `output` with the report; no folder remains after an error.  What the
  * runs have no data for is left out.  The file of the measured points is copied.  Errors: GB_ERR_INPUT when the
  * folder exists, GB_ERR_MACHINE, GB_ERR_MEMORY. */
 bool gb_report_write(const struct gb_runset *set, const struct gb_table *data,
                      const char *output, struct gb_error *err);
-
-/* A sentence with the conditions of the scenes behind it, and the same as the caption of the
- * next figure, "Figure 3. ..."; g_free. */
-char *gb_report_caption(const struct gb_report *report, const char *text);
-char *gb_report_figure_caption(struct gb_report *report, const char *text);
 
 #endif
