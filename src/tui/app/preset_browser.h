@@ -51,4 +51,8 @@ bool gb_preset_browser_handle(struct gb_preset_browser *browser,
 /* Selected name; NULL when none matches the filter. */
 const char *gb_preset_browser_selected(const struct gb_preset_browser *browser);
 
+/* Presets, and materials: the parameters on screen with another [material]. */
+extern const struct gb_preset_browser_kind gb_preset_browser_kinds_presets,
+    gb_preset_browser_kinds_materials;
+
 #endif

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "measure/cell_scatter.h"
-#include "tui/session/overlay/pressure_rows.h"
+#include "tui/session/pressure_rows.h"
 
 static const double level_pa[] = {10e6, 50e6, 100e6, 500e6};
 
