@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "tui/app/key_commands.h"
-#include "tui/panel/action.h"
+#include "tui/panel/list_box.h"
 #include "tui/panel/density_table.h"
 #include "tui/panel/prompt.h"
 #include "tui/session/session.h"
@@ -863,6 +863,7 @@ void gb_dialog_close(struct gb_dialog *dialog)
 {
     gb_pixels_png_finish(&dialog->pixels);
     gb_preset_browser_finish(&dialog->browser);
+    gb_param_finder_finish(&dialog->finder);
     gb_leg_editor_finish(&dialog->legs);
     g_free(dialog->text);
     memset(dialog, 0, sizeof *dialog);

@@ -6,7 +6,7 @@
 #include "tui/app/keys.h"
 #include "tui/app/preset_browser.h"
 #include "tui/legs/leg_editor.h"
-#include "tui/panel/action.h"
+#include "tui/panel/list_box.h"
 #include "tui/panel/param_finder.h"
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "tui/app/layout.h"
-#include "tui/panel/action.h"
+#include "tui/panel/list_box.h"
 
 struct gb_app;
 

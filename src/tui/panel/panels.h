@@ -3,7 +3,7 @@
 
 #include "greenbody/params.h"
 #include "greenbody/status.h"
-#include "tui/panel/action.h"
+#include "tui/panel/list_box.h"
 #include "tui/panel/prompt.h"
 #include "tui/plot/plot.h"
 #include "tui/plot/sphere_shading.h"
