@@ -1,5 +1,5 @@
 /* Sequences that set the clipboard: what terminals, tmux and screen find in them. */
-#include "tui/term/clipboard.h"
+#include "tui/term/term.h"
 
 #include <glib.h>
 #include <string.h>
@@ -59,7 +59,7 @@ static char *through_screen(const char *sequence)
 static void check(int clipboard, char *(*through)(const char *), const char *copied)
 {
     struct gb_error err = {0};
-    char *sequence = gb_clipboard_sequence(clipboard, copied, &err);
+    char *sequence = gb_term_clipboard_sequence(clipboard, copied, &err);
     g_assert_nonnull(sequence);
     char *first = decoded(sequence);
     g_assert_cmpstr(first, ==, copied);
@@ -92,7 +92,7 @@ static void test_sequences(void)
 static void refused(int clipboard, const char *copied, const char *why)
 {
     struct gb_error err = {0};
-    g_assert_null(gb_clipboard_sequence(clipboard, copied, &err));
+    g_assert_null(gb_term_clipboard_sequence(clipboard, copied, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     g_assert_nonnull(strstr(err.text, why));
 }
@@ -111,7 +111,7 @@ static void test_longest(void)
 {
     struct gb_error err = {0};
     char *longest = g_strnfill(GB_CLIPBOARD_MAX, 'x');
-    char *sequence = gb_clipboard_sequence(GB_CLIPBOARD_OSC52, longest, &err);
+    char *sequence = gb_term_clipboard_sequence(GB_CLIPBOARD_OSC52, longest, &err);
     g_assert_cmpuint(strlen(sequence), <=, 100000);
     g_free(sequence);
     g_free(longest);

@@ -1,7 +1,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/session/cost_confirm.h"
+#include "tui/session/run_lifecycle.h"
 
 /* Discs of P2 at a loading rate, without measured speed, on one core. */
 static struct gb_params planar(const char *rate, const char *time_step)
@@ -36,7 +36,7 @@ static bool asks(const char *rate, const char *time_step, double measured)
 {
     const struct gb_params params = planar(rate, time_step);
     char text[400] = "";
-    const bool needed = gb_cost_confirm_question(&params, measured, text, sizeof text);
+    const bool needed = gb_run_lifecycle_cost_question(&params, measured, text, sizeof text);
     g_test_message("%s %s: %s", rate, time_step, text);
     return needed;
 }
@@ -64,7 +64,7 @@ static void test_text(void)
 {
     struct gb_params params = planar("6.8e4 1/s", "0.04 T");
     char text[400];
-    g_assert_true(gb_cost_confirm_question(&params, 1e7, text, sizeof text));
+    g_assert_true(gb_run_lifecycle_cost_question(&params, 1e7, text, sizeof text));
     g_assert_nonnull(strstr(text, "8 h 55 min"));
     g_assert_nonnull(strstr(text, "3.2e+08 steps of 29.6 fs"));
     g_assert_nonnull(strstr(text, "as the last run"));
@@ -73,7 +73,7 @@ static void test_text(void)
     g_assert_cmpuint(strlen(text), <, sizeof text - 1);
     params = planar("6.8e8 1/s", "auto");
     params.hold_s = 1e-4;
-    g_assert_true(gb_cost_confirm_question(&params, 0.0, text, sizeof text));
+    g_assert_true(gb_run_lifecycle_cost_question(&params, 0.0, text, sizeof text));
     g_assert_nonnull(strstr(text, "loading.relax or hold"));
     g_assert_nonnull(strstr(text, "(assumed)"));
     g_assert_null(strstr(text, "time_step"));
@@ -85,10 +85,10 @@ static void test_others(void)
     struct gb_params params;
     char text[400];
     gb_params_init(&params);
-    g_assert_false(gb_cost_confirm_question(&params, 1.0, text, sizeof text));
+    g_assert_false(gb_run_lifecycle_cost_question(&params, 1.0, text, sizeof text));
     params = planar("6.8e4 1/s", "auto");
     params.until_density = params.structure_density / 2.0;
-    g_assert_false(gb_cost_confirm_question(&params, 0.0, text, sizeof text));
+    g_assert_false(gb_run_lifecycle_cost_question(&params, 0.0, text, sizeof text));
 }
 
 int main(int argc, char **argv)

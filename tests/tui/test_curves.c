@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "tui/session/overlay/pressure_rows.h"
-#include "tui/session/overlay/previous_list.h"
+#include "tui/session/pressure_rows.h"
+#include "tui/session/previous.h"
 #include "tui/view/views.h"
 
 /* A session with a run of 60 particles to 0.1 MPa. */

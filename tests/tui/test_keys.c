@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "tui/app/keys.h"
-#include "tui/help/help_list.h"
+#include "tui/app/help_list.h"
 #include "tui/view/views.h"
 
 static int scope_of(GHashTable *codes, int code)

@@ -3,14 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "tui/legs/leg_list.h"
-#include "tui/legs/leg_plan.h"
 #include "tui/legs/leg_sketch.h"
-#include "tui/legs/leg_words.h"
+#include "tui/legs/leg_editor.h"
 
 static void check_text(const struct gb_leg_list *list, const char *expected)
 {
-    char *text = gb_leg_list_join(list);
+    char *text = gb_leg_editor_list_join(list);
     g_assert_cmpstr(text, ==, expected);
     g_free(text);
 }
@@ -19,42 +17,42 @@ static void check_text(const struct gb_leg_list *list, const char *expected)
 static void test_list(void)
 {
     struct gb_leg_list list;
-    gb_leg_list_init(&list, "isotropic to 50 MPa; unload", 3);
-    g_assert_cmpint(gb_leg_list_insert(&list, 1, "shear xz to 20 % then hold"), ==, 2);
+    gb_leg_editor_list_init(&list, "isotropic to 50 MPa; unload", 3);
+    g_assert_cmpint(gb_leg_editor_list_insert(&list, 1, "shear xz to 20 % then hold"), ==, 2);
     check_text(&list, "isotropic to 50 MPa; shear xz to 20 %; hold; unload");
-    g_assert_true(gb_leg_list_move(&list, 2, -1));
-    g_assert_false(gb_leg_list_move(&list, 0, -1));
-    gb_leg_list_remove(&list, 3);
+    g_assert_true(gb_leg_editor_list_move(&list, 2, -1));
+    g_assert_false(gb_leg_editor_list_move(&list, 0, -1));
+    gb_leg_editor_list_remove(&list, 3);
     check_text(&list, "isotropic to 50 MPa; hold; shear xz to 20 %");
-    gb_leg_list_replace(&list, 0, "uniaxial to 10 MPa");
-    gb_leg_list_set(&list, "unload");
+    gb_leg_editor_list_replace(&list, 0, "uniaxial to 10 MPa");
+    gb_leg_editor_list_set(&list, "unload");
     g_assert_cmpint(list.errors, ==, 1);
     for (int i = 0; i < 4; i++) {
-        g_assert_true(gb_leg_list_undo(&list));
+        g_assert_true(gb_leg_editor_list_undo(&list));
     }
     check_text(&list, "isotropic to 50 MPa; shear xz to 20 %; hold; unload");
-    g_assert_true(gb_leg_list_undo(&list));
+    g_assert_true(gb_leg_editor_list_undo(&list));
     check_text(&list, "isotropic to 50 MPa; unload");
-    g_assert_false(gb_leg_list_undo(&list));
-    gb_leg_list_finish(&list);
+    g_assert_false(gb_leg_editor_list_undo(&list));
+    gb_leg_editor_list_finish(&list);
 }
 
 /* The error stands at the leg that has it, without its name; legs behind it are read. */
 static void test_errors(void)
 {
     struct gb_leg_list list;
-    gb_leg_list_init(&list, "isotropic to 50 MPa; sheer xz to 20 %; unload", 3);
+    gb_leg_editor_list_init(&list, "isotropic to 50 MPa; sheer xz to 20 %; unload", 3);
     g_assert_cmpint(list.errors, ==, 1);
-    g_assert_null(gb_leg_list_leg(&list, 1));
+    g_assert_null(gb_leg_editor_list_leg(&list, 1));
     g_assert_true(g_str_has_prefix(list.error[1].text, "'sheer': must be uniaxial"));
-    g_assert_nonnull(gb_leg_list_leg(&list, 2));
+    g_assert_nonnull(gb_leg_editor_list_leg(&list, 2));
     struct gb_leg leg;
     struct gb_error err = {0};
-    g_assert_false(gb_leg_list_try(&list, 1, "shear xz to", &leg, &err));
+    g_assert_false(gb_leg_editor_list_try(&list, 1, "shear xz to", &leg, &err));
     g_assert_nonnull(strstr(err.text, "an end"));
-    g_assert_true(gb_leg_list_try(&list, 1, "shear xz to 20 %", &leg, &err));
+    g_assert_true(gb_leg_editor_list_try(&list, 1, "shear xz to 20 %", &leg, &err));
     g_assert_cmpint(leg.leading, ==, 4);
-    gb_leg_list_finish(&list);
+    gb_leg_editor_list_finish(&list);
 }
 
 static struct gb_path parse(const char *text)
@@ -73,12 +71,12 @@ static void test_words(void)
         "isotropic to 50 MPa; shear xz to 20 % or xz = 9 MPa at z = 50 MPa, x = 0.5 z;"
         "cycle 3 times uniaxial between 20 MPa and 100 MPa");
     struct gb_leg_words words;
-    gb_leg_words_write(&path.leg[1], 3, &words);
+    gb_leg_editor_words(&path.leg[1], 3, &words);
     g_assert_cmpstr(words.leads, ==, "xz");
     g_assert_cmpstr(words.held, ==, "x = 0.5 z, z at 50 MPa");
     g_assert_cmpstr(words.fixed, ==, "y, xy, yz");
     g_assert_cmpstr(words.ends, ==, "at strain 20 % of xz or at xz = 9 MPa");
-    gb_leg_words_write(&path.leg[2], 3, &words);
+    gb_leg_editor_words(&path.leg[2], 3, &words);
     g_assert_cmpstr(
         words.ends, ==,
         "3 times there and back: at pressure = 20 MPa and at pressure = 100 MPa");
@@ -108,7 +106,7 @@ static void test_plan(void)
     for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
         const struct gb_path path = parse(cases[i].path);
         struct gb_leg_plan plan;
-        gb_leg_plan_make(&plan, &path, 3);
+        gb_leg_sketch_plan(&plan, &path, 3);
         const struct gb_leg_plan_state *last = &plan.state[plan.count - 1];
         const double p = 1e-6 * last->p, q = 1e-6 * last->q;
         const bool good = isnan(cases[i].p) ? !isfinite(p) || !isfinite(q)

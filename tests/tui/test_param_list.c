@@ -1,7 +1,7 @@
 #include <glib.h>
 
 #include "scene/field/applies.h"
-#include "tui/panel/param_list.h"
+#include "tui/panel/panels.h"
 
 static struct gb_params scene(const char *first, ...)
 {
@@ -25,8 +25,8 @@ static bool listed(const struct gb_params *params, const char *group, const char
     const struct gb_field *fields = gb_params_fields(&count);
     const int row = (int)(gb_params_find(group, key) - fields);
     struct gb_param_list listing;
-    gb_param_list_init(&listing, params, false);
-    return listing.field[gb_param_list_index(&listing, row)] == row;
+    gb_panel_params_list_init(&listing, params, false);
+    return listing.field[gb_panel_params_list_index(&listing, row)] == row;
 }
 
 /* The list of a scene has the parameters that it uses. */
@@ -61,7 +61,7 @@ static void test_all(void)
     gb_params_fields(&count);
     g_assert_cmpuint(count, <=, GB_PARAM_LIST_MAX);
     struct gb_param_list listing;
-    gb_param_list_init(&listing, &params, true);
+    gb_panel_params_list_init(&listing, &params, true);
     g_assert_cmpint(listing.count, ==, (int)count);
     g_assert_true(listing.first[0]);
     g_assert_cmpint(listing.line[0], ==, 1);
@@ -69,7 +69,7 @@ static void test_all(void)
         g_assert_cmpint(listing.field[i], ==, i);
         g_assert_cmpint(listing.line[i] - listing.line[i - 1], ==,
                         listing.first[i] ? 3 : 1);
-        g_assert_cmpint(gb_param_list_index(&listing, i), ==, i);
+        g_assert_cmpint(gb_panel_params_list_index(&listing, i), ==, i);
     }
 }
 
@@ -80,10 +80,10 @@ static void test_index(void)
     struct gb_param_list listing;
     size_t count = 0;
     gb_params_fields(&count);
-    gb_param_list_init(&listing, &params, false);
+    gb_panel_params_list_init(&listing, &params, false);
     g_assert_cmpint(listing.count, <, (int)count);
     for (int row = 0; row < (int)count; row++) {
-        const int index = gb_param_list_index(&listing, row);
+        const int index = gb_panel_params_list_index(&listing, row);
         g_assert_cmpint(listing.field[index], <=, row);
         if (index + 1 < listing.count) {
             g_assert_cmpint(listing.field[index + 1], >, row);

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "measure/cell_scatter.h"
-#include "tui/session/overlay/pressure_rows.h"
+#include "tui/session/pressure_rows.h"
 
 enum { LAST = 6 };
 static const double at_pa = 150e6;

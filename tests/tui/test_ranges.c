@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "tui/panel/panel_plot_ranges.h"
+#include "tui/panel/panels.h"
 
 static struct gb_plot_ranges parsed(const char *text)
 {

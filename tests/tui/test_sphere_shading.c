@@ -177,14 +177,14 @@ static void test_value(void)
     struct gb_packing_look look = {.colour = GB_PACKING_COLOUR_CONTACTS};
     picture->value[GB_VIEW_VALUE_PRESSURE][0] = -2.0F;
     picture->value[GB_VIEW_VALUE_PRESSURE][1] = 5.0F;
-    struct gb_packing_range range = gb_packing_look_range(picture, look.colour);
+    struct gb_packing_range range = gb_sphere_shading_range(picture, look.colour);
     g_assert_cmpfloat(range.low, ==, 0.0);
     g_assert_cmpfloat(range.high, ==, 3.0); /* 95 % of two */
     g_assert_true(range.beyond);
-    range = gb_packing_look_range(picture, GB_PACKING_COLOUR_PRESSURE);
+    range = gb_sphere_shading_range(picture, GB_PACKING_COLOUR_PRESSURE);
     g_assert_cmpfloat(range.low, ==, -2.0);
     picture->count = 1;
-    range = gb_packing_look_range(picture, look.colour);
+    range = gb_sphere_shading_range(picture, look.colour);
     g_assert_false(range.beyond);
     picture->count = 2;
     picture->value[GB_VIEW_VALUE_CONTACTS][1] = 0.0F;
@@ -200,13 +200,13 @@ static void test_rotated(void)
     struct gb_view_sample *picture = two_spheres();
     struct gb_packing_look look = {.colour = GB_PACKING_COLOUR_CONTACTS};
     picture->value[GB_VIEW_VALUE_CONTACTS][1] = 0.0F;
-    gb_packing_look_rotate(&look, 180.0, 0.0);
+    gb_sphere_shading_rotate(&look, 180.0, 0.0);
     gb_sphere_shading_render(picture, &look, ROWS, COLS, shade);
     g_assert_cmpfloat(middle(-0.5F, 0.5F), <, 20.0);
     g_assert_cmpfloat(middle(0.5F, 1.0F), >, 20.0);
-    gb_packing_look_rotate(&look, 180.0, 0.0);
+    gb_sphere_shading_rotate(&look, 180.0, 0.0);
     g_assert_cmpfloat(look.azimuth_deg, ==, 0.0);
-    gb_packing_look_rotate(&look, 0.0, 120.0);
+    gb_sphere_shading_rotate(&look, 0.0, 120.0);
     g_assert_cmpfloat(look.elevation_deg, ==, 90.0);
     picture->position[1][0] = 2.0F; /* the same place, above the other */
     picture->position[1][1] = 1.0F;

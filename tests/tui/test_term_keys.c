@@ -1,5 +1,5 @@
 /* Keys from bytes, cut anywhere, by a clock of its own: nothing here waits. */
-#include "tui/term/input/term_keys.h"
+#include "tui/term/term.h"
 
 #include <glib.h>
 #include <locale.h>

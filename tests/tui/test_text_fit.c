@@ -1,5 +1,4 @@
 /* Texts that are cut or wrapped: an ellipsis, and no part of a number. */
-#include "tui/term/text_fit.h"
 
 #include <glib.h>
 #include <string.h>
@@ -40,7 +39,7 @@ static void test_cells(void)
         {"abc", 0, ""},
     };
     for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
-        char *fitted = gb_text_fit(rows[k].text, rows[k].cols);
+        char *fitted = gb_paint_fit(rows[k].text, rows[k].cols);
         g_test_message("%s in %d: %s", rows[k].text, rows[k].cols, fitted);
         g_assert_cmpstr(fitted, ==, rows[k].fitted);
         g_free(fitted);
@@ -50,15 +49,15 @@ static void test_cells(void)
 static void test_bytes(void)
 {
     char text[12];
-    g_assert_cmpstr(gb_text_fit_copy(text, sizeof text, "mu 0.15, al"), ==,
+    g_assert_cmpstr(gb_paint_fit_copy(text, sizeof text, "mu 0.15, al"), ==,
                     "mu 0.15, al");
-    g_assert_cmpstr(gb_text_fit_copy(text, sizeof text, "alpha 0.244 a"), ==,
+    g_assert_cmpstr(gb_paint_fit_copy(text, sizeof text, "alpha 0.244 a"), ==,
                     "alpha " ELLIPSIS);
     g_assert_cmpstr(
-        gb_text_fit_copy(text, sizeof text, "\u03c1\u03c1\u03c1\u03c1\u03c1x"), ==,
+        gb_paint_fit_copy(text, sizeof text, "\u03c1\u03c1\u03c1\u03c1\u03c1x"), ==,
         "\u03c1\u03c1\u03c1\u03c1\u03c1x");
     g_assert_cmpstr(
-        gb_text_fit_copy(text, sizeof text, "\u03c1\u03c1\u03c1\u03c1\u03c1xy"), ==,
+        gb_paint_fit_copy(text, sizeof text, "\u03c1\u03c1\u03c1\u03c1\u03c1xy"), ==,
         "\u03c1\u03c1\u03c1\u03c1" ELLIPSIS);
 }
 

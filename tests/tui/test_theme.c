@@ -1,6 +1,6 @@
 /* Colours of the themes, computed: contrast with the background, and that no two series look
  * alike, also with the three common kinds of colour blindness. */
-#include "tui/term/term_theme.h"
+#include "tui/term/term.h"
 
 #include <glib.h>
 #include <math.h>

@@ -2,8 +2,8 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "tui/panel/complete.h"
-#include "tui/session/value_step.h"
+#include "tui/panel/prompt.h"
+#include "tui/panel/panels.h"
 
 static void expect(const char *group, const char *key, const char *value, int direction,
                    const char *wanted)
@@ -11,7 +11,7 @@ static void expect(const char *group, const char *key, const char *value, int di
     char text[64] = "";
     const struct gb_field *field = gb_params_find(group, key);
     g_assert_nonnull(field);
-    const bool stepped = gb_value_step_next(field, value, direction, text, sizeof text);
+    const bool stepped = gb_panel_params_next_value(field, value, direction, text, sizeof text);
     if (wanted == NULL) {
         g_assert_false(stepped);
     } else {
@@ -53,8 +53,8 @@ static void test_there_and_back(void)
         char value[64];
         gb_params_init(&params);
         g_snprintf(value, sizeof value, "%.2g", 0.01 * i);
-        g_assert_true(gb_value_step_next(mu, value, 1, up, sizeof up));
-        g_assert_true(gb_value_step_next(mu, up, -1, back, sizeof back));
+        g_assert_true(gb_panel_params_next_value(mu, value, 1, up, sizeof up));
+        g_assert_true(gb_panel_params_next_value(mu, up, -1, back, sizeof back));
         g_assert_cmpfloat_with_epsilon(g_ascii_strtod(back, NULL),
                                        g_ascii_strtod(value, NULL), 0.06);
         g_assert_true(gb_params_set(&params, mu, up, NULL));
@@ -74,7 +74,7 @@ static void expect_path(const char *folder, const char *begun, const char *wante
     int count = -1;
     char *path = g_strdup_printf("%s/%s", folder, begun);
     char *full = g_strdup_printf("%s/%s", folder, wanted);
-    char *done = gb_complete_path(path, &count);
+    char *done = gb_prompt_complete_path(path, &count);
     g_assert_cmpstr(done, ==, full);
     g_assert_cmpint(count, ==, fits);
     g_free(done);

@@ -27,7 +27,7 @@ static struct gb_chart_csv *read_chart(const char *rows)
     char *folder = g_dir_make_tmp("greenbody-views-XXXXXX", NULL);
     char *path = g_build_filename(folder, "chart.csv", NULL);
     g_assert_true(g_file_set_contents(path, rows, -1, NULL));
-    const bool read = gb_chart_csv_read(&chart, path, &err);
+    const bool read = gb_job_chart_csv_read(&chart, path, &err);
     g_assert_cmpstr(err.text, ==, "");
     g_assert_true(read);
     g_unlink(path);
@@ -71,14 +71,14 @@ static void test_chart_noise(void)
     g_assert_cmpint(count_char(text, 'x'), ==, 2 + 1);
     g_assert_nonnull(strstr(text, "# predict, step 1 %, tolerance 0.02"));
     g_free(text);
-    gb_chart_csv_destroy(session.chart);
+    gb_job_chart_csv_destroy(session.chart);
     g_string_printf(csv, "%s\n%s", head, rows);
     session.chart = read_chart(csv->str);
     text = draw(gb_view_chart_draw, &session, ROWS, COLS);
     g_assert_null(strstr(text, "noise"));
     g_assert_nonnull(strstr(text, "o setting"));
     g_free(text);
-    gb_chart_csv_destroy(session.chart);
+    gb_job_chart_csv_destroy(session.chart);
     g_strfreev(lines);
     g_string_free(csv, TRUE);
 }

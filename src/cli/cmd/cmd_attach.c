@@ -14,9 +14,9 @@
 #include "io/runs/run_list.h"
 #include "runner/runner.h"
 #include "tui/app/app.h"
-#include "tui/runs/runs_picker.h"
+#include "tui/watch/runs_picker.h"
 #include "tui/term/term_profile.h"
-#include "tui/watch/runset_files.h"
+#include "tui/watch/runset_view.h"
 #include "tui/watch/watch.h"
 
 /* One line about a directory of many runs. */
@@ -37,7 +37,7 @@ static int print_progress(const char *directory, struct gb_error *err)
 {
     struct gb_runner *runner = NULL;
     struct gb_progress progress;
-    if (gb_runset_files_any(directory)) {
+    if (gb_runset_view_any(directory)) {
         return print_runs(directory, err);
     }
     if (!gb_runner_follow(&runner, directory, err)) {
@@ -76,7 +76,7 @@ static int show(const char *directory, const struct gb_settings *settings,
     struct gb_preset *preset = NULL;
     char *path = g_build_filename(directory, "preset.ini", NULL);
     int status = 0;
-    if (gb_runset_files_any(directory)) {
+    if (gb_runset_view_any(directory)) {
         status = gb_watch_run(directory, settings, err);
     } else if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
         gb_error_set(err, GB_ERR_INPUT, "%s: no run directory: it has no preset.ini",

@@ -3,18 +3,183 @@
 #include <errno.h>
 #include <glib.h>
 #include <math.h>
+#include <ncurses.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "tui/app/command/key_commands.h"
-#include "tui/app/dialog/dialogs.h"
-#include "tui/app/dispatch.h"
-#include "tui/app/mouse.h"
+#include "tui/app/dialogs.h"
+#include "tui/app/key_commands.h"
+#include "tui/app/screen.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term_tty.h"
+
+enum { WHEEL_ROWS = 3 };
+
+static bool contains(const struct gb_rect *rect, int row, int col)
+{
+    return row >= rect->row && row < rect->row + rect->rows && col >= rect->col &&
+           col < rect->col + rect->cols;
+}
+
+/* The pane at a cell; GB_PANES: none. */
+static enum gb_pane pane_at(const struct gb_layout *layout, int row, int col)
+{
+    for (enum gb_pane pane = GB_PANE_PARAMS; pane < GB_PANES; pane++) {
+        if (contains(&layout->pane[pane], row, col)) {
+            return pane;
+        }
+    }
+    return GB_PANES;
+}
+
+static void navigate(struct gb_screen *screen, enum gb_action action, int times)
+{
+    const struct gb_pane_type *pane = gb_screen_pane(screen->focus);
+    for (int i = 0; i < times && pane->navigate != NULL; i++) {
+        pane->navigate(screen, action);
+    }
+}
+
+/* In dialogs and lists of choices the wheel acts as arrow keys. */
+static void send_arrow(struct gb_app *app, const struct gb_term_event *event)
+{
+    const struct gb_term_event key = {
+        .kind = GB_TERM_KEY, .code = event->code == GB_TERM_WHEEL_UP ? KEY_UP : KEY_DOWN};
+    if (event->code != GB_TERM_CLICK) {
+        gb_app_event(app, &key);
+    }
+}
+
+static void click(struct gb_screen *screen, enum gb_pane pane, int row, int col)
+{
+    screen->focus = pane;
+    if (gb_screen_pane(pane)->click != NULL) {
+        gb_screen_pane(pane)->click(screen, row, col);
+    }
+}
+
+/* The wheel changes the focused value only, so that scrolling does not start runs. */
+static bool over_value(struct gb_screen *screen, int row, int col)
+{
+    struct gb_panel_params probe = screen->params;
+    return gb_panel_params_click(&probe, &screen->session, row, col) ==
+               GB_PANEL_PARAMS_VALUE &&
+           probe.focus == screen->params.focus;
+}
+
+static void wheel(struct gb_screen *screen, enum gb_pane pane, int row, int col, bool up)
+{
+    const bool value =
+        pane == GB_PANE_PARAMS && screen->focus == pane && over_value(screen, row, col);
+    screen->focus = pane;
+    if (value) {
+        gb_panel_params_edit_step(&screen->params, &screen->session, up ? 1 : -1,
+                                  &screen->message);
+    } else if (pane == GB_PANE_PLOT) {
+        navigate(screen, up ? GB_ACTION_LEFT : GB_ACTION_RIGHT, 1);
+    } else {
+        navigate(screen, up ? GB_ACTION_UP : GB_ACTION_DOWN, WHEEL_ROWS);
+    }
+}
+
+/* Calls the command of a row of the key table if the focused pane is in its scope. */
+static void app_key(struct gb_app *app, const struct gb_key *key)
+{
+    const struct gb_screen *screen = &app->screen;
+    const int here = screen->layout.kind == GB_LAYOUT_TOO_SMALL ? GB_KEY_TOO_SMALL
+                                                                : 1 << screen->focus;
+    if (key->scope & here) {
+        key->command(app, key);
+    }
+}
+
+/* Mouse events.  A click focuses the pane and selects its row or point, presses a key of
+ * the footer, or, on the title of the plot, shows the next view.  The wheel scrolls; over
+ * the focused value it changes it.  Everything is possible with keys, too. */
+static void mouse_handle(struct gb_app *app, const struct gb_term_event *event)
+{
+    struct gb_screen *screen = &app->screen;
+    const enum gb_pane pane = pane_at(&screen->layout, event->row, event->col);
+    struct gb_key key;
+    if (screen->layout.kind == GB_LAYOUT_TOO_SMALL) {
+        return;
+    }
+    if (screen->dialog.type != NULL || screen->params.editing) {
+        send_arrow(app, event);
+        return;
+    }
+    screen->message.text[0] = '\0';
+    if (pane == GB_PANES) {
+        if (event->code == GB_TERM_CLICK &&
+            gb_screen_key_at(screen, event->row, event->col, &key)) {
+            app_key(app, &key);
+        }
+        return;
+    }
+    const int row = event->row - screen->layout.pane[pane].row;
+    const int col = event->col - screen->layout.pane[pane].col;
+    if (event->code == GB_TERM_CLICK) {
+        click(screen, pane, row, col);
+    } else {
+        wheel(screen, pane, row, col, event->code == GB_TERM_WHEEL_UP);
+    }
+}
+
+enum { LAST_ASCII = 126 };
+
+static void handle_dialog(struct gb_app *app, const struct gb_term_event *event)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    const struct gb_dialog_type *type = dialog->type;
+    struct gb_key key;
+    if (gb_dialog_takes_keys(dialog) && gb_keys_find(event->code, type->scope, &key)) {
+        key.command(app, &key);
+        return;
+    }
+    if (type->press != NULL && type->press(app, event)) {
+        return;
+    }
+    switch (gb_dialog_handle(dialog, event)) {
+    case GB_DIALOG_OPEN:
+        break;
+    case GB_DIALOG_ACCEPTED:
+        type->accept(app);
+        break;
+    case GB_DIALOG_CANCELLED:
+        if (type->decline != NULL) {
+            type->decline(app);
+        }
+        break;
+    }
+}
+
+void gb_app_event(struct gb_app *app, const struct gb_term_event *event)
+{
+    struct gb_screen *screen = &app->screen;
+    struct gb_key key;
+    if (screen->layout.kind != GB_LAYOUT_TOO_SMALL) {
+        if (screen->dialog.type != NULL) {
+            handle_dialog(app, event);
+            return;
+        }
+        if (screen->params.editing) {
+            gb_panel_params_edit_key(&screen->params, &screen->session, event,
+                                     &screen->message);
+            return;
+        }
+    }
+    /* code points beyond ASCII overlap with the key codes of curses */
+    if (event->kind == GB_TERM_TEXT && event->code > LAST_ASCII) {
+        return;
+    }
+    screen->message.text[0] = '\0';
+    if (gb_keys_find(event->code, GB_KEY_ALWAYS, &key)) {
+        app_key(app, &key);
+    }
+}
 
 /* At most ten frames within any second, two with --slow.  Updates of the engine are
  * spaced wider, so that a frame is left for the answer to a key. */
@@ -45,10 +210,10 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
         break;
     case GB_TERM_KEY:
     case GB_TERM_TEXT:
-        gb_dispatch_event(app, event);
+        gb_app_event(app, event);
         break;
     case GB_TERM_MOUSE:
-        gb_mouse_handle(app, event);
+        mouse_handle(app, event);
         break;
     case GB_TERM_INTERRUPT:
         interrupt(app);
@@ -92,11 +257,11 @@ static void draw(struct gb_app *app)
     struct gb_screen *screen = &app->screen;
     gb_screen_draw(screen);
     const struct gb_term_picture picture = gb_screen_picture(screen);
-    if (gb_term_image_before(&screen->image, screen->term, &picture)) {
+    if (gb_pixels_image_before(&screen->image, screen->term, &picture)) {
         gb_term_repaint(screen->term);
     }
     gb_term_flush(screen->term);
-    gb_term_image_after(&screen->image, screen->term, &picture, gb_clock_s());
+    gb_pixels_image_after(&screen->image, screen->term, &picture, gb_clock_s());
     app->frame_s[app->frames++ % app->frames_max] = gb_clock_s();
     app->redraw = app->input_pending = false;
 }
@@ -105,7 +270,7 @@ static void draw(struct gb_app *app)
 static bool poll_stderr(struct gb_app *app)
 {
     char line[160];
-    const bool found = gb_stderr_tail_poll(&app->stderr_tail, line, sizeof line);
+    const bool found = gb_term_tty_tail_poll(&app->stderr_tail, line, sizeof line);
     if (found) {
         gb_session_note(&app->screen.session, "library message: %s", line);
     }
@@ -119,10 +284,10 @@ static void loop(struct gb_app *app)
             gb_term_wait(app->screen.term, wait_timeout_ms(app));
         handle(app, &event);
         app->redraw = gb_session_refresh(&app->screen.session) || app->redraw ||
-                      gb_term_image_due(&app->screen.image, gb_clock_s());
+                      gb_pixels_image_due(&app->screen.image, gb_clock_s());
         app->redraw = poll_stderr(app) || app->redraw;
         gb_run_commands_follow_quick(app);
-        gb_result_commands_follow(app);
+        gb_job_commands_result_follow(app);
         if (app->redraw && !app->leave && frame_wait(app) <= 0.0) {
             draw(app);
         }
@@ -198,14 +363,14 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
         return gb_status_exit_code(GB_ERR_MACHINE);
     }
     app->redraw = app->input_pending = true;
-    gb_stderr_tail_init(&app->stderr_tail);
+    gb_term_tty_tail_init(&app->stderr_tail);
     app->frames_max = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
     first_focus(screen);
     gb_session_init(&screen->session, preset);
     screen->session.folder = folder;
     screen->session.attached = attached;
     gb_panel_plot_init(&screen->plot, screen->term, settings->graph);
-    gb_term_image_init(&screen->image, gb_term_images(screen->term));
+    gb_pixels_image_init(&screen->image, gb_term_images(screen->term));
     if (open_first(app, err)) {
         loop(app);
     }

@@ -3,7 +3,9 @@
 
 #include "greenbody/status.h"
 #include "io/preset.h"
+#include "tui/app/screen.h"
 #include "tui/term/settings.h"
+#include "tui/term/term_tty.h"
 
 /* The workbench: takes over the terminal, starts a run of the preset and handles events
  * until the user quits.  The preset's parameters are edited in place; the caller owns it.
@@ -19,5 +21,26 @@
  * terminal cannot be used, err is filled and its status returned. */
 int gb_app_run(struct gb_preset *preset, const char *folder, const char *attached,
                const struct gb_settings *settings, struct gb_error *err);
+
+/* State of the workbench.  app.c: the event loop; app.c and app.c: events;
+ * *_commands.c: functions of the keys. */
+enum { GB_APP_FRAMES = 10, GB_APP_FRAMES_SLOW = 2 };
+
+struct gb_app {
+    struct gb_screen screen;
+    struct gb_stderr_tail stderr_tail;
+    bool leave;
+    bool detach;        /* the run goes on in a process of its own */
+    int status;         /* exit status */
+    bool terminal_lost; /* hang-up: no more output to the terminal */
+    bool redraw;        /* the screen has changed */
+    bool input_pending; /* key or resize since the last frame: drawn without delay */
+    double frame_s[GB_APP_FRAMES]; /* clock of the last frames, s; ring buffer */
+    int frames;                    /* drawn so far */
+    int frames_max;                /* within any second */
+};
+
+/* A key or a character: to the open dialog, the value being edited, or the key table. */
+void gb_app_event(struct gb_app *app, const struct gb_term_event *event);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "tui/app/layout.h"
-#include "tui/panel/action.h"
+#include "tui/panel/list_box.h"
 
 struct gb_app;
 
@@ -19,8 +19,8 @@ enum gb_key_scope {
     GB_KEY_EVENTS = 1 << GB_PANE_EVENTS,
     GB_KEY_LISTS = GB_KEY_PARAMS | GB_KEY_PLOT | GB_KEY_EVENTS,
     GB_KEY_ANY_PANE = GB_KEY_LISTS | GB_KEY_STATE,
-    GB_KEY_TOO_SMALL = 1 << GB_PANES,  /* also on a screen that is too small */
-    GB_KEY_LEGS = 1 << (GB_PANES + 1), /* in the editor of a loading path */
+    GB_KEY_TOO_SMALL = 1 << GB_PANES,    /* also on a screen that is too small */
+    GB_KEY_LEGS = 1 << (GB_PANES + 1),   /* in the editor of a loading path */
     GB_KEY_COPIED = 1 << (GB_PANES + 2), /* in a dialog with something to copy */
     GB_KEY_CURVES = 1 << (GB_PANES + 3), /* in the list of curves */
     GB_KEY_ALWAYS = GB_KEY_ANY_PANE | GB_KEY_TOO_SMALL,

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "tui/term/rect.h"
+#include "tui/term/term.h"
 
 /* Panes in the order of Tab. */
 enum gb_pane { GB_PANE_PARAMS, GB_PANE_PLOT, GB_PANE_STATE, GB_PANE_EVENTS, GB_PANES };

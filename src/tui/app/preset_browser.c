@@ -1,15 +1,103 @@
 #include "tui/app/preset_browser.h"
 
 #include <glib.h>
-#include <ncurses.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/read_file.h"
-#include "tui/session/overlay/previous_curve.h"
+#include "base/units.h"
+#include "io/material.h"
+#include "io/preset_folders.h"
+#include "tui/session/previous.h"
 
-enum { LIST_COLS = 28, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
+/* --- presets ---------------------------------------------------------------------- */
+
+static bool load_preset(struct gb_preset **out, const char *name,
+                        const struct gb_params *current, struct gb_error *err)
+{
+    (void)current;
+    return gb_preset_load(out, name, err);
+}
+
+static const char *title_of_scene(const struct gb_params *params)
+{
+    return params->title;
+}
+
+static void write_scene(struct gb_preset *preset, const char *path, char *text,
+                        size_t size)
+{
+    const struct gb_params *params = gb_preset_params(preset);
+    (void)path;
+    char diameter[32];
+    char until[48];
+    char geometry[32];
+    gb_units_format_short(params->diameter_m, GB_DIM_LENGTH, 4, diameter,
+                          sizeof diameter);
+    gb_params_format(params, gb_params_find("loading", "until"), until, sizeof until);
+    gb_params_format(params, gb_params_find("loading", "geometry"), geometry,
+                     sizeof geometry);
+    snprintf(text, size, "%dD, %lld particles of %s, %s, until %s", params->dimension,
+             (long long)params->count, diameter, geometry, until);
+}
+
+const struct gb_preset_browser_kind gb_preset_browser_kinds_presets = {
+    .list = gb_preset_folders_list,
+    .find = gb_preset_folders_find,
+    .load = load_preset,
+    .title = title_of_scene,
+    .describe = write_scene,
+    .empty = "no presets found",
+};
+
+/* --- materials -------------------------------------------------------------------- */
+
+static bool load_material(struct gb_preset **out, const char *name,
+                          const struct gb_params *current, struct gb_error *err)
+{
+    if (!gb_preset_create(out, err)) {
+        return false;
+    }
+    *gb_preset_params(*out) = *current;
+    if (!gb_material_apply(gb_preset_params(*out), name, err)) {
+        gb_preset_destroy(*out);
+        *out = NULL;
+        return false;
+    }
+    return true;
+}
+
+static const char *name_of_material(const struct gb_params *params)
+{
+    return params->material;
+}
+
+static void write_guessed(struct gb_preset *preset, const char *path, char *text,
+                          size_t size)
+{
+    char *keys = gb_material_guessed(path);
+    (void)preset;
+    g_snprintf(text, size, "%s%s", *keys != '\0' ? "Guessed: " : "", keys);
+    g_free(keys);
+}
+
+const struct gb_preset_browser_kind gb_preset_browser_kinds_materials = {
+    .list = gb_preset_folders_list_materials,
+    .find = gb_preset_folders_find_material,
+    .load = load_material,
+    .title = name_of_material,
+    .describe = write_guessed,
+    .empty = "no materials found",
+};
+
+enum {
+    HEAD_ROWS = 2,
+    LIST_COLS = 28,
+    PREVIEW_FROM = LIST_COLS + 24,
+    HEAD_LINES = 4,
+    DIFFERENCE = 400
+};
 enum { BYTES_MAX = 1 << 20 }; /* of a preset */
 
 static int length_of(char **names)
@@ -19,7 +107,8 @@ static int length_of(char **names)
 
 const char *gb_preset_browser_selected(const struct gb_preset_browser *browser)
 {
-    return browser->count > 0 ? browser->names[browser->shown[browser->focus]] : NULL;
+    const int item = gb_list_box_focused(&browser->list);
+    return item >= 0 ? browser->names[item] : NULL;
 }
 
 /* Comment lines at the beginning of the file: source and purpose. */
@@ -68,27 +157,17 @@ static void read_preview(struct gb_preset_browser *browser)
     }
 }
 
-static void go_to(struct gb_preset_browser *browser, int to)
+/* Names that contain the words of the filter. */
+static int rank_name(void *data, int item, char **words)
 {
-    browser->focus = CLAMP(to, 0, MAX(browser->count - 1, 0));
-    read_preview(browser);
+    const struct gb_preset_browser *browser = data;
+    return gb_list_box_matches(words, browser->names[item]);
 }
 
-/* Keeps the names that contain the filter, ignoring case. */
 static void apply_filter(struct gb_preset_browser *browser)
 {
-    const int all = length_of(browser->names);
-    char *wanted = g_ascii_strdown(gb_prompt_text(&browser->filter), -1);
-    browser->count = 0;
-    for (int i = 0; i < all; i++) {
-        char *name = g_ascii_strdown(browser->names[i], -1);
-        if (strstr(name, wanted) != NULL) {
-            browser->shown[browser->count++] = i;
-        }
-        g_free(name);
-    }
-    g_free(wanted);
-    go_to(browser, 0);
+    gb_list_box_search(&browser->list, length_of(browser->names), rank_name, browser);
+    read_preview(browser);
 }
 
 void gb_preset_browser_init(struct gb_preset_browser *browser,
@@ -98,11 +177,9 @@ void gb_preset_browser_init(struct gb_preset_browser *browser,
     memset(browser, 0, sizeof *browser);
     browser->kind = kind;
     browser->names = kind->list();
-    browser->shown = g_new0(int, (gsize)length_of(browser->names) + 1);
     browser->current = *current;
     browser->base = *current;
     g_strlcpy(browser->base_name, "the current parameters", sizeof browser->base_name);
-    gb_prompt_set(&browser->filter, "");
     apply_filter(browser);
 }
 
@@ -110,34 +187,31 @@ void gb_preset_browser_finish(struct gb_preset_browser *browser)
 {
     drop_preview(browser);
     g_strfreev(browser->names);
-    g_free(browser->shown);
+    gb_list_box_finish(&browser->list);
     memset(browser, 0, sizeof *browser);
 }
 
-static void scroll_to_focus(struct gb_preset_browser *browser)
+static void write_name(void *data, int item, struct gb_list_box_line *line)
 {
-    browser->top = MIN(browser->top, browser->focus);
-    browser->top = MAX(browser->top, browser->focus - browser->page + 1);
-    browser->top = MAX(MIN(browser->top, browser->count - browser->page), 0);
+    const struct gb_preset_browser *browser = data;
+    line->cell[0] = g_strdup(browser->names[item]);
 }
 
-static void draw_list(struct gb_preset_browser *browser, const struct gb_paint *paint,
-                      int cols)
+static void draw_list(struct gb_preset_browser *browser, const struct gb_paint *paint)
 {
-    gb_paint_text(paint, 0, 0, GB_STYLE_DIM, "Filter:");
-    gb_prompt_draw(&browser->filter, paint, 0, 8, cols - 9);
-    browser->page = paint->rect.rows - 2;
-    scroll_to_focus(browser);
-    if (browser->count == 0) {
-        gb_paint_text(paint, 2, 0, GB_STYLE_DIM,
-                      length_of(browser->names) > 0 ? "no match" : browser->kind->empty);
-    }
-    for (int i = 0; i < browser->page && browser->top + i < browser->count; i++) {
-        const int at = browser->top + i;
-        gb_paint_cell(paint, 2 + i, 0, cols - 1,
-                      at == browser->focus ? GB_STYLE_SELECTED : GB_STYLE_PLAIN,
-                      browser->names[browser->shown[at]]);
-    }
+    const bool any = length_of(browser->names) > 0;
+    const struct gb_list_box_look look = {.columns = 1,
+                                          .empty =
+                                              any ? "no match" : browser->kind->empty,
+                                          .empty_style = GB_STYLE_DIM,
+                                          .write = write_name};
+    struct gb_rect rows = paint->rect;
+    rows.row += HEAD_ROWS;
+    rows.rows -= HEAD_ROWS;
+    rows.cols--;
+    gb_list_box_draw_filter(&browser->list, paint, 0, 0, "Filter:");
+    const struct gb_paint below = gb_paint_at(paint->term, rows);
+    gb_list_box_draw(&browser->list, &below, &look, browser);
 }
 
 static void draw_preview(const struct gb_preset_browser *browser,
@@ -180,7 +254,7 @@ void gb_preset_browser_draw(struct gb_preset_browser *browser,
     }
     const struct gb_paint list = gb_paint_at(inside->term, left);
     const struct gb_paint preview = gb_paint_at(inside->term, right);
-    draw_list(browser, &list, left.cols);
+    draw_list(browser, &list);
     draw_preview(browser, &preview);
 }
 
@@ -197,30 +271,19 @@ static void mark(struct gb_preset_browser *browser)
 bool gb_preset_browser_handle(struct gb_preset_browser *browser,
                               const struct gb_term_event *event)
 {
-    if (event->kind == GB_TERM_KEY) {
-        switch (event->code) {
-        case KEY_UP:
-            go_to(browser, browser->focus - 1);
-            return true;
-        case KEY_DOWN:
-            go_to(browser, browser->focus + 1);
-            return true;
-        case KEY_PPAGE:
-            go_to(browser, browser->focus - browser->page);
-            return true;
-        case KEY_NPAGE:
-            go_to(browser, browser->focus + browser->page);
-            return true;
-        case '\t':
-            mark(browser);
-            return true;
-        default:
-            break;
-        }
+    if (event->kind == GB_TERM_KEY && event->code == '\t') {
+        mark(browser);
+        return true;
     }
-    if (gb_prompt_handle(&browser->filter, event)) {
+    switch (gb_list_box_handle(&browser->list, event)) {
+    case GB_LIST_BOX_MOVED:
+        read_preview(browser);
+        return true;
+    case GB_LIST_BOX_TYPED:
         apply_filter(browser);
         return true;
+    case GB_LIST_BOX_OTHER:
+        break;
     }
     return false;
 }

@@ -3,7 +3,7 @@
 
 #include "io/preset.h"
 #include "tui/app/keys.h"
-#include "tui/panel/prompt.h"
+#include "tui/panel/list_box.h"
 #include "tui/term/paint.h"
 
 /* What a browser lists. */
@@ -25,9 +25,7 @@ struct gb_preset_browser_kind {
 struct gb_preset_browser {
     const struct gb_preset_browser_kind *kind;
     char **names; /* all; owned */
-    int *shown;   /* indices of the names that match the filter; owned */
-    int count, focus, top, page;
-    struct gb_prompt filter;
+    struct gb_list_box list;
     struct gb_preset *preset; /* the selected one; NULL: not readable */
     char *head;               /* its comment lines, or the error of reading */
     char told[256];           /* what its kind says of it */
@@ -50,5 +48,9 @@ bool gb_preset_browser_handle(struct gb_preset_browser *browser,
 
 /* Selected name; NULL when none matches the filter. */
 const char *gb_preset_browser_selected(const struct gb_preset_browser *browser);
+
+/* Presets, and materials: the parameters on screen with another [material]. */
+extern const struct gb_preset_browser_kind gb_preset_browser_kinds_presets,
+    gb_preset_browser_kinds_materials;
 
 #endif

@@ -1,9 +1,9 @@
 #ifndef GB_TUI_APP_SCREEN_H
 #define GB_TUI_APP_SCREEN_H
 
-#include "tui/app/dialog/dialog.h"
+#include "tui/app/dialog.h"
 #include "tui/panel/panels.h"
-#include "tui/term/term_image.h"
+#include "tui/term/pixels.h"
 
 /* All state of the screen: app.c changes it, screen.c draws it. */
 struct gb_screen {
@@ -31,5 +31,18 @@ struct gb_term_picture gb_screen_picture(const struct gb_screen *screen);
 /* The key at a cell of the footer; false: none. */
 bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
                       struct gb_key *key);
+
+/* One row per pane; NULL: not supported. */
+struct gb_pane_type {
+    void (*draw)(struct gb_screen *screen, const struct gb_paint *paint,
+                 enum gb_paint_focus focus);
+    void (*navigate)(struct gb_screen *screen, enum gb_action action);
+    void (*click)(struct gb_screen *screen, int row, int col);
+    void (*describe)(struct gb_screen *screen, struct gb_message *message);
+    /* What is under the cursor, for the clipboard (g_free); NULL: nothing. */
+    char *(*copied)(struct gb_screen *screen);
+};
+
+const struct gb_pane_type *gb_screen_pane(enum gb_pane pane);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "measure/cell_scatter.h"
-#include "tui/session/overlay/pressure_rows.h"
+#include "tui/session/pressure_rows.h"
 
 static const double level_pa[] = {10e6, 50e6, 100e6, 500e6};
 
@@ -45,8 +45,7 @@ static struct line *add(struct table *table, const char *name, enum gb_style sty
 }
 
 static void write_densities(struct table *table, const struct gb_pressure_row *row,
-                            const struct gb_pressure_value value[LEVELS],
-                            double misfit)
+                            const struct gb_pressure_value value[LEVELS], double misfit)
 {
     struct line *line = add(table, row->name, GB_STYLE_PLAIN);
     if (isfinite(misfit)) {
@@ -103,8 +102,7 @@ static void fill(struct table *table, const struct gb_session *session,
         for (int k = 0; k < LEVELS; k++) {
             value[i][k] = gb_pressure_rows_at(session, row, level_pa[k]);
         }
-        write_densities(table, row, value[i],
-                        gb_pressure_rows_misfit(session, row));
+        write_densities(table, row, value[i], gb_pressure_rows_misfit(session, row));
         write_errors(table, row, value[i]);
         if (i > 0 && rows.row[0].kind == GB_PRESSURE_ROW_RUN) {
             write_differences(table, row, value[i], &rows.row[0], value[0]);
@@ -181,9 +179,9 @@ int gb_density_table_draw(const struct gb_paint *paint, const struct gb_session 
     struct table table;
     const int page = MAX(1, paint->rect.rows - FOOT_ROWS - 1);
     const bool misfit = gb_session_measured(session) != NULL;
-    const int name_cols = CLAMP(paint->rect.cols - LEVELS * VALUE_COLS -
-                                    (misfit ? MISFIT_COLS : 0),
-                                NAME_COLS_MIN, NAME_COLS_MAX);
+    const int name_cols =
+        CLAMP(paint->rect.cols - LEVELS * VALUE_COLS - (misfit ? MISFIT_COLS : 0),
+              NAME_COLS_MIN, NAME_COLS_MAX);
     fill(&table, session, hide_previous);
     *top = CLAMP(*top, 0, MAX(0, table.count - page));
     draw_head(paint, name_cols, misfit);

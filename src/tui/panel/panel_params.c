@@ -1,10 +1,229 @@
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/field/applies.h"
 #include "scene/field/field.h"
+#include "tui/app/keys.h"
 #include "tui/panel/panels.h"
-#include "tui/panel/param_list.h"
+#include "tui/session/session.h"
+
+void gb_panel_params_list_init(struct gb_param_list *list, const struct gb_params *params,
+                               bool all)
+{
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    const char *group = "";
+    int line = -1;
+    list->count = 0;
+    for (size_t i = 0; i < count && list->count < GB_PARAM_LIST_MAX; i++) {
+        if (!all && !gb_applies_field(params, &field[i])) {
+            continue;
+        }
+        const bool first = strcmp(field[i].group, group) != 0;
+        line += !first ? 1 : list->count > 0 ? 3 : 2;
+        group = field[i].group;
+        list->field[list->count] = (int)i;
+        list->first[list->count] = first;
+        list->line[list->count++] = line;
+    }
+}
+
+int gb_panel_params_list_index(const struct gb_param_list *list, int field)
+{
+    int position = 0;
+    while (position + 1 < list->count && list->field[position + 1] <= field) {
+        position++;
+    }
+    return position;
+}
+
+/* A step of 4 to 10 % of the value, so that the number stays short. */
+static double increment_of(double value)
+{
+    const double decade = pow(10.0, floor(log10(fabs(value)) + 1e-9));
+    const double mantissa = fabs(value) / decade;
+    return decade * (mantissa < 2.0 - 1e-9 ? 0.1 : mantissa < 5.0 - 1e-9 ? 0.2 : 0.5);
+}
+
+static void value_step_step_choice(const struct gb_field *field, const char *value,
+                                   int direction, char *text, size_t size)
+{
+    int count = 0;
+    int at = 0;
+    for (; field->choices[count] != NULL; count++) {
+        at = strcmp(field->choices[count], value) == 0 ? count : at;
+    }
+    snprintf(text, size, "%s", field->choices[(at + direction + count) % count]);
+}
+
+/* "9.7 nm" becomes "10.2 nm": the text after the number is kept. */
+static bool step_number(const struct gb_field *field, const char *value, int direction,
+                        char *text, size_t size)
+{
+    char *rest = NULL;
+    const double number = strtod(value, &rest);
+    if (rest == value) {
+        return false; /* "auto", or empty */
+    }
+    if (field->type == GB_FIELD_SEED) {
+        snprintf(text, size, "%.0f%s", fmax(number + direction, 0.0), rest);
+        return true;
+    }
+    const double step = number != 0.0 ? increment_of(number) : 0.01;
+    /* below 1 the steps are those of 0.9 */
+    const double down = number != 0.0 ? increment_of(number * (1.0 - 1e-6)) : step;
+    const double next = direction > 0 ? number + step : number - down;
+    snprintf(text, size, "%.6g%s",
+             field->type == GB_FIELD_INTEGER ? floor(next + 0.5) : next, rest);
+    return true;
+}
+
+bool gb_panel_params_next_value(const struct gb_field *field, const char *value,
+                                int direction, char *text, size_t size)
+{
+    if (field->choices != NULL) {
+        value_step_step_choice(field, value, direction, text, size);
+        return true;
+    }
+    return field->type != GB_FIELD_TEXT && field->type != GB_FIELD_PRESSURES &&
+           step_number(field, value, direction, text, size);
+}
+
+/* Editing of the focused parameter: typed, chosen, stepped, reverted. */
+
+static void panel_params_edit_begin(struct gb_panel_params *panel,
+                                    struct gb_session *session)
+{
+    const struct gb_field *field = gb_panel_params_field(panel);
+    char value[GB_PROMPT_MAX];
+    gb_params_format(gb_session_params(session), field, value, sizeof value);
+    panel->editing = true;
+    panel->choice = 0;
+    gb_prompt_offer(&panel->prompt, value);
+    for (int i = 0; field->choices != NULL && field->choices[i] != NULL; i++) {
+        if (strcmp(field->choices[i], value) == 0) {
+            panel->choice = i;
+        }
+    }
+}
+
+void gb_panel_params_edit_revert(struct gb_panel_params *panel,
+                                 struct gb_session *session, struct gb_message *message)
+{
+    const struct gb_field *field = gb_panel_params_field(panel);
+    char value[GB_PARAMS_VALUE_MAX];
+    if (session->runner == NULL) {
+        return;
+    }
+    gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
+    gb_params_set(gb_session_params(session), field, value, NULL);
+    snprintf(message->text, sizeof message->text, "%s.%s is %.256s again, as in the run",
+             field->group, field->key, value[0] != '\0' ? value : "empty");
+    message->style = GB_STYLE_PLAIN;
+    gb_session_recall_answer(session);
+}
+
+void gb_panel_params_edit_changed(struct gb_session *session, struct gb_message *message)
+{
+    struct gb_error err = {0};
+    message->text[0] = '\0';
+    if (gb_params_check(gb_session_params(session), &err)) {
+        gb_session_recall_answer(session);
+    } else {
+        snprintf(message->text, sizeof message->text, "conflicts with %s", err.text);
+        message->style = GB_STYLE_WARN;
+    }
+}
+
+bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field *field,
+                              const char *text, struct gb_message *message)
+{
+    struct gb_error err = {0};
+    if (!gb_params_set(gb_session_params(session), field, text, &err)) {
+        snprintf(message->text, sizeof message->text, "%s", err.text);
+        message->style = GB_STYLE_BAD;
+        return false;
+    }
+    gb_panel_params_edit_changed(session, message);
+    return true;
+}
+
+void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session *session,
+                               int direction, struct gb_message *message)
+{
+    const struct gb_field *field = gb_panel_params_field(panel);
+    char value[GB_PARAMS_VALUE_MAX];
+    char text[GB_PARAMS_VALUE_MAX + 16];
+    gb_params_format(gb_session_params(session), field, value, sizeof value);
+    if (gb_panel_params_next_value(field, value, direction, text, sizeof text)) {
+        gb_panel_params_edit_set(session, field, text, message);
+    } else {
+        snprintf(message->text, sizeof message->text,
+                 "%s has no next value: Enter edits it", field->key);
+        message->style = GB_STYLE_WARN;
+    }
+}
+
+/* The text typed, or the choice shown. */
+static const char *edited_text(struct gb_panel_params *panel)
+{
+    const struct gb_field *field = gb_panel_params_field(panel);
+    return field->choices != NULL ? field->choices[panel->choice]
+                                  : gb_prompt_text(&panel->prompt);
+}
+
+struct gb_params gb_panel_params_edit_params(struct gb_panel_params *panel,
+                                             struct gb_session *session)
+{
+    struct gb_params edited = *gb_session_params(session);
+    if (panel->editing) {
+        gb_params_set(&edited, gb_panel_params_field(panel), edited_text(panel), NULL);
+    }
+    return edited;
+}
+
+static void step_choice(struct gb_panel_params *panel, int step)
+{
+    const char *const *choices = gb_panel_params_field(panel)->choices;
+    int count = 0;
+    while (choices[count] != NULL) {
+        count++;
+    }
+    panel->choice = (panel->choice + step + count) % count;
+}
+
+/* Direction in which a key moves through the choices; 0: none. */
+static int choice_step(int code, enum gb_action action)
+{
+    if (action == GB_ACTION_UP || action == GB_ACTION_LEFT) {
+        return -1;
+    }
+    return action == GB_ACTION_DOWN || action == GB_ACTION_RIGHT || code == '\t' ||
+           code == 'n' || code == ' ';
+}
+
+void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
+                              const struct gb_term_event *event,
+                              struct gb_message *message)
+{
+    const struct gb_field *field = gb_panel_params_field(panel);
+    if (field->choices == NULL && gb_prompt_handle(&panel->prompt, event)) {
+        message->text[0] = '\0';
+        return;
+    }
+    const enum gb_action action = gb_keys_action(event->code);
+    if (action == GB_ACTION_ENTER) {
+        panel->editing =
+            !gb_panel_params_edit_set(session, field, edited_text(panel), message);
+    } else if (action == GB_ACTION_BACK) {
+        panel->editing = false;
+        message->text[0] = '\0';
+    } else if (field->choices != NULL) {
+        step_choice(panel, choice_step(event->code, action));
+    }
+}
 
 /* Columns; the longest key of the field table has 16 characters. */
 enum { KEY_COL = 1, VALUE_COL = 18 };
@@ -21,14 +240,14 @@ static struct gb_param_list listed(const struct gb_panel_params *panel,
                                    struct gb_session *session)
 {
     struct gb_param_list list;
-    gb_param_list_init(&list, gb_session_params(session), panel->all);
+    gb_panel_params_list_init(&list, gb_session_params(session), panel->all);
     return list;
 }
 
 /* Keeps the focused line visible, and its heading where there is room. */
 static void scroll(struct gb_panel_params *panel, const struct gb_param_list *list)
 {
-    const int line = list->line[gb_param_list_index(list, panel->focus)];
+    const int line = list->line[gb_panel_params_list_index(list, panel->focus)];
     const int last = list->line[list->count - 1] + 1;
     if (line - 1 < panel->top) {
         panel->top = line - 1;
@@ -108,7 +327,7 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
     const struct gb_field *field = gb_params_fields(&count);
     panel->page = paint->rect.rows - 1;
     if (!panel->editing) { /* a change of the scene may have removed its line */
-        panel->focus = list.field[gb_param_list_index(&list, panel->focus)];
+        panel->focus = list.field[gb_panel_params_list_index(&list, panel->focus)];
     }
     scroll(panel, &list);
     for (int i = 0; i < list.count; i++) {
@@ -126,7 +345,7 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
 static void move(struct gb_panel_params *panel, struct gb_session *session, int by)
 {
     const struct gb_param_list list = listed(panel, session);
-    const int to = gb_param_list_index(&list, panel->focus) + by;
+    const int to = gb_panel_params_list_index(&list, panel->focus) + by;
     panel->focus = list.field[to < 0 ? 0 : to < list.count ? to : list.count - 1];
 }
 
@@ -195,7 +414,7 @@ void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *
         move(panel, session, GB_PARAM_LIST_MAX);
         break;
     case GB_ACTION_ENTER:
-        gb_panel_params_edit_begin(panel, session);
+        panel_params_edit_begin(panel, session);
         break;
     case GB_ACTION_LEFT:
     case GB_ACTION_RIGHT:

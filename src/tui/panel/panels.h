@@ -1,13 +1,17 @@
 #ifndef GB_TUI_PANEL_PANELS_H
 #define GB_TUI_PANEL_PANELS_H
 
-#include "tui/panel/action.h"
-#include "tui/panel/panel_plot_ranges.h"
+#include "greenbody/params.h"
+#include "greenbody/status.h"
+#include "tui/panel/list_box.h"
 #include "tui/panel/prompt.h"
-#include "tui/plot/packing_look.h"
-#include "tui/session/overlay/compaction_cache.h"
+#include "tui/plot/plot.h"
+#include "tui/plot/sphere_shading.h"
+#include "tui/session/results.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
+#include <stdbool.h>
+#include <stddef.h>
 
 struct gb_plot_view;
 
@@ -20,7 +24,7 @@ struct gb_message {
     enum gb_style style;
 };
 
-/* --- parameters: panel_params.c, panel_params_edit.c -------------------------------- */
+/* --- parameters: panel_params.c, panel_params.c -------------------------------- */
 
 struct gb_panel_params {
     int focus; /* row of the field table */
@@ -62,8 +66,6 @@ const struct gb_field *gb_panel_params_field(const struct gb_panel_params *panel
 void gb_panel_params_describe(const struct gb_panel_params *panel,
                               struct gb_session *session, struct gb_message *message);
 
-void gb_panel_params_edit_begin(struct gb_panel_params *panel,
-                                struct gb_session *session);
 /* A key while editing. */
 void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
                               const struct gb_term_event *event,
@@ -84,10 +86,28 @@ void gb_panel_params_edit_revert(struct gb_panel_params *panel,
 struct gb_params gb_panel_params_edit_params(struct gb_panel_params *panel,
                                              struct gb_session *session);
 
-/* --- plot: panel_plot.c, panel_plot_cursor.c, panel_plot_pressure.c ---------------------------------------- */
+/* --- plot: panel_plot.c, panel_plot.c, panel_plot.c ---------------------------------------- */
 
 /* Contact laws below the curve, if there is room. */
 enum { GB_PANEL_INSETS = 2 };
+
+struct gb_plot_range {
+    bool typed; /* else automatic */
+    double low, high;
+};
+
+enum gb_plot_range_of {
+    GB_PLOT_RANGE_PRESSURE,   /* Pa */
+    GB_PLOT_RANGE_DENSITY,    /* relative density */
+    GB_PLOT_RANGE_TIME,       /* ns, or recorded steps */
+    GB_PLOT_RANGE_RATIO,      /* lateral-to-axial stress ratio */
+    GB_PLOT_RANGE_DIFFERENCE, /* of densities */
+    GB_PLOT_RANGES
+};
+
+struct gb_plot_ranges {
+    struct gb_plot_range of[GB_PLOT_RANGES];
+};
 
 struct gb_panel_plot {
     const struct gb_plot_view *view;
@@ -98,13 +118,13 @@ struct gb_panel_plot {
     enum gb_plot_glyphs glyphs;
     struct gb_packing_look look; /* of the view of the packing */
     bool cursor_on;
-    size_t cursor;        /* point of the curve */
-    double at_pa;         /* pressure that was typed; 0: none */
+    size_t cursor;                         /* point of the curve */
+    double at_pa;                          /* pressure that was typed; 0: none */
     const struct gb_plot_view *setting_on; /* view whose cursor is on; NULL: none */
-    size_t setting; /* row of the chart, or of the stability, under it */
-    double unit_pa;       /* of the pressure axis */
+    size_t setting;               /* row of the chart, or of the stability, under it */
+    double unit_pa;               /* of the pressure axis */
     struct gb_plot_ranges ranges; /* of axes, as typed */
-    struct gb_rect field; /* the view's cells on the screen */
+    struct gb_rect field;         /* the view's cells on the screen */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
     struct gb_plot *target;  /* target of the current drawing: plot or an inset */
     struct gb_params edited; /* gb_panel_params_edit_params */
@@ -133,7 +153,7 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
 /* Moves the cursor to the point nearest to a cell of the pane. */
 void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
                                 const struct gb_session *session, int row, int col);
-/* panel_plot_pressure.c: puts the cursor at a pressure, in the view of pressure against
+/* panel_plot.c: puts the cursor at a pressure, in the view of pressure against
  * density where the present one has no pressure axis. */
 void gb_panel_plot_pressure_set(struct gb_panel_plot *panel,
                                 const struct gb_session *session, double pressure_pa);
@@ -142,17 +162,7 @@ bool gb_panel_plot_pressure_shown(const struct gb_panel_plot *panel);
 /* Density there of the first curve that has reached it; NaN: none. */
 double gb_panel_plot_pressure_density(const struct gb_panel_plot *panel,
                                       const struct gb_session *session);
-/* The densities of all curves there, with their errors. */
-void gb_panel_plot_pressure_describe(const struct gb_panel_plot *panel,
-                                     const struct gb_session *session,
-                                     struct gb_message *message);
-/* The same over the settings of a chart: panel_plot_settings.c. */
-void gb_panel_plot_settings_navigate(struct gb_panel_plot *panel,
-                                     const struct gb_session *session,
-                                     enum gb_action action);
-void gb_panel_plot_settings_describe(const struct gb_panel_plot *panel,
-                                     const struct gb_session *session,
-                                     struct gb_message *message);
+
 /* The row under the cursor; false: none. */
 bool gb_panel_plot_settings_at(const struct gb_panel_plot *panel,
                                const struct gb_session *session, size_t *row);
@@ -168,7 +178,7 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    struct gb_message *message);
 
-/* --- state: panel_state.c, panel_state_items.c -------------------------------------- */
+/* --- state: panel_state.c, panel_state.c -------------------------------------- */
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          enum gb_paint_focus focus);
@@ -192,5 +202,52 @@ void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *
                           const struct gb_session *session, enum gb_paint_focus focus);
 void gb_panel_events_navigate(struct gb_panel_events *panel,
                               const struct gb_session *session, enum gb_action action);
+
+/* The next value of a parameter upwards (direction 1) or downwards (-1), as text of a
+ * preset.  Numbers change by 4 to 10 % and keep their unit, choices are cyclic, a seed
+ * changes by 1.  False: no next value (a text, a list, "auto").  The result may be out of
+ * range; gb_params_set checks it. */
+bool gb_panel_params_next_value(const struct gb_field *field, const char *value,
+                                int direction, char *text, size_t size);
+
+enum { GB_PARAM_LIST_MAX = 160 };
+
+/* The parameters that the pane lists, and their lines: those with an effect on the scene,
+ * or all.  Every group has a heading, with a blank line before all but the first. */
+struct gb_param_list {
+    int count;
+    int field[GB_PARAM_LIST_MAX]; /* rows of the field table, ascending */
+    int line[GB_PARAM_LIST_MAX];
+    bool first[GB_PARAM_LIST_MAX]; /* of its group: the heading is one line above */
+};
+
+void gb_panel_params_list_init(struct gb_param_list *list, const struct gb_params *params,
+                               bool all);
+
+/* Index in the list of a row of the field table; for a row that is not listed, of the
+ * last listed one before it, or 0. */
+int gb_panel_params_list_index(const struct gb_param_list *list, int field);
+
+/* Ranges of the axes that the user has typed, by the quantity on the axis. */
+
+/* "p=10 MPa:500 MPa rho=0.3:0.6"; a quantity that is not named is automatic.  Errors:
+ * GB_ERR_INPUT, ranges are unchanged. */
+bool gb_panel_plot_ranges_parse(struct gb_plot_ranges *ranges, const char *text,
+                                struct gb_error *err);
+/* The text that sets them. */
+void gb_panel_plot_ranges_write(const struct gb_plot_ranges *ranges, char *text,
+                                size_t size);
+bool gb_panel_plot_ranges_any(const struct gb_plot_ranges *ranges);
+
+/* Whether a value is inside the typed range, or the axis is automatic. */
+bool gb_panel_plot_ranges_inside(const struct gb_plot_ranges *ranges,
+                                 enum gb_plot_range_of of, double value);
+
+/* Before gb_plot_axes: the ends of the x and y axis become the typed ones and are kept
+ * exactly.  unit: of the axis, in that of the range. */
+void gb_panel_plot_ranges_x(const struct gb_plot_ranges *ranges, enum gb_plot_range_of of,
+                            double unit, struct gb_plot *plot, double ends[2]);
+void gb_panel_plot_ranges_y(const struct gb_plot_ranges *ranges, enum gb_plot_range_of of,
+                            double unit, struct gb_plot *plot, double ends[2]);
 
 #endif

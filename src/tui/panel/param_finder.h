@@ -2,21 +2,18 @@
 #define GB_TUI_PANEL_PARAM_FINDER_H
 
 #include "greenbody/params.h"
-#include "tui/panel/prompt.h"
+#include "tui/panel/list_box.h"
 #include "tui/term/paint.h"
 
 /* The list of parameters that match what is typed, the nearest first (field_words.h). */
 
-enum { GB_PARAM_FINDER_MAX = 128 };
-
 struct gb_param_finder {
-    struct gb_prompt text;
-    int found[GB_PARAM_FINDER_MAX]; /* rows of the field table */
-    int count, focus, top, page;
+    struct gb_list_box list; /* of rows of the field table */
     struct gb_params params; /* whose values are shown */
 };
 
 void gb_param_finder_init(struct gb_param_finder *finder, const struct gb_params *params);
+void gb_param_finder_finish(struct gb_param_finder *finder); /* zeroed is fine */
 
 /* Typing, arrows and pages; false: another key. */
 bool gb_param_finder_handle(struct gb_param_finder *finder,

@@ -32,4 +32,12 @@ const char *gb_prompt_text(struct gb_prompt *prompt);
 void gb_prompt_draw(const struct gb_prompt *prompt, const struct gb_paint *paint, int row,
                     int col, int cols);
 
+/* Completes a path as a shell does: to the longest common prefix of all matching names; a
+ * folder ends with a slash, "~/" is the home directory.  *count (may be NULL) receives
+ * the number of matches.  g_free. */
+char *gb_prompt_complete_path(const char *path, int *count);
+
+/* "~/x" with the home directory inserted; other paths unchanged.  g_free. */
+char *gb_prompt_complete_home(const char *path);
+
 #endif

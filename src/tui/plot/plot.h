@@ -6,13 +6,57 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "tui/plot/plot_axis.h"
-
-/* Plots in character cells, without curses, so that tests can compare the text. */
 
 /* Dots per character: 2 x 4 (braille), 1 x 2 (half blocks, which every console font has),
  * 1 x 2 by ' . : (ASCII). */
 enum gb_plot_glyphs { GB_PLOT_BRAILLE, GB_PLOT_BLOCK, GB_PLOT_ASCII, GB_PLOT_GLYPHS };
+
+enum { GB_PLOT_TICKS = 24, GB_PLOT_TICK_TEXT = 16 };
+
+/* An axis: round ends, and ticks at 1, 2 or 5 times a power of ten. */
+struct gb_plot_axis {
+    double low, high;
+    bool log;
+    int ticks;
+    double tick[GB_PLOT_TICKS];
+    char text[GB_PLOT_TICKS][GB_PLOT_TICK_TEXT];
+};
+
+struct gb_plot_cell {
+    uint32_t ch; /* Unicode */
+    int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
+    bool fixed;  /* a marker or a text: lines pass behind it */
+    bool tone;   /* dots of a band alone: a line takes their place */
+    int back; /* of a shaded cell: 1 + shade of its background; 0: background of the terminal */
+};
+
+struct gb_plot {
+    int rows, cols; /* of the whole picture */
+    int top, left;  /* of the field inside the axes */
+    int field_rows, field_cols;
+    enum gb_plot_glyphs glyphs;
+    bool log_x;            /* set before gb_plot_axes; cleared by gb_plot_resize */
+    bool exact_x, exact_y; /* axes end where they are asked to; as log_x */
+    int foot; /* rows for the legend below the axes; set and cleared as log_x */
+    struct gb_plot_axis x, y;
+    struct gb_plot_cell *cell; /* rows x cols */
+    uint8_t *dots;             /* rows x cols: bits of the raster */
+    size_t capacity;
+};
+
+/* Fits an axis around data between low and high.
+ *
+ * most   how many ticks there is room for (at least 2)
+ * log    falls back to linear when high is not positive; a low that is not positive
+ * becomes three decades below high Never fails: equal or non-finite ends become an axis
+ * from 0 to 1 or around the value. */
+void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
+                      int max);
+
+/* 0 at low, 1 at high; NaN for values without a logarithm on a logarithmic axis. */
+double gb_plot_axis_position(const struct gb_plot_axis *axis, double value);
+
+/* Plots in character cells, without curses, so that tests can compare the text. */
 
 /* Meaning of a cell; gb_paint_plot assigns the colours. */
 enum gb_plot_ink {
@@ -28,14 +72,6 @@ enum gb_plot_ink {
 enum gb_plot_scale { GB_PLOT_LINEAR, GB_PLOT_LOG };
 
 enum { GB_PLOT_COLOURS = 6, GB_PLOT_SHADES = 8 };
-
-struct gb_plot_cell {
-    uint32_t ch; /* Unicode */
-    int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
-    bool fixed;  /* a marker or a text: lines pass behind it */
-    bool tone;   /* dots of a band alone: a line takes their place */
-    int back; /* of a shaded cell: 1 + shade of its background; 0: background of the terminal */
-};
 
 /* A series of points.  NaN interrupts the line; the part outside the axes is clipped. */
 struct gb_plot_series {
@@ -59,20 +95,6 @@ enum { GB_PLOT_NAME = 64 };
 struct gb_plot_entry {
     int ink, marker;
     char name[GB_PLOT_NAME];
-};
-
-struct gb_plot {
-    int rows, cols; /* of the whole picture */
-    int top, left;  /* of the field inside the axes */
-    int field_rows, field_cols;
-    enum gb_plot_glyphs glyphs;
-    bool log_x; /* set before gb_plot_axes; cleared by gb_plot_resize */
-    bool exact_x, exact_y; /* axes end where they are asked to; as log_x */
-    int foot;   /* rows for the legend below the axes; set and cleared as log_x */
-    struct gb_plot_axis x, y;
-    struct gb_plot_cell *cell; /* rows x cols */
-    uint8_t *dots;             /* rows x cols: bits of the raster */
-    size_t capacity;
 };
 
 void gb_plot_init(struct gb_plot *plot);
@@ -107,7 +129,7 @@ void gb_plot_put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink);
 /* Character of a marker: 1.. a shape, larger numbers a letter. */
 uint32_t gb_plot_mark_char(const struct gb_plot *plot, int marker);
 
-/* plot_legend.c */
+/* plot.c */
 
 /* The legend, drawn after the lines: in the foot if there is one, or in a free area (top
  * left, bottom right or anywhere, in up to three columns), or where it covers least.  A

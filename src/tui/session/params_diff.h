@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "greenbody/params.h"
+#include "io/preset.h"
 
 /* Differences between two sets of parameters, compared as text of a preset. */
 
@@ -21,5 +22,15 @@ int gb_params_diff_count(const struct gb_params *a, const struct gb_params *b);
  * text. */
 char *gb_params_diff_describe(const struct gb_params *own, const struct gb_params *other,
                               char *text, size_t size);
+
+/* The shell command that runs the parameters on screen: the preset by name or path, and
+ * every value that differs from the file.
+ *
+ * params  the parameters on screen
+ * cols    longer lines are broken at a blank, with a backslash
+ *
+ * g_free. */
+char *gb_params_diff_command(const struct gb_preset *preset,
+                             const struct gb_params *params, int cols);
 
 #endif

@@ -1,8 +1,11 @@
 #ifndef GB_TUI_SESSION_RUN_LIFECYCLE_H
 #define GB_TUI_SESSION_RUN_LIFECYCLE_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
+#include "greenbody/params.h"
 #include "tui/panel/panels.h"
 
 /* Life cycle of a run apart from the screen: its directory, a hang-up of the terminal, a
@@ -48,5 +51,19 @@ char *gb_run_lifecycle_folder(void);
 /* A line for --diagnose: number of stored runs in the folder and their size on disk.
  * Runs are removed by the user only. */
 void gb_run_lifecycle_print_runs(FILE *out, const char *folder);
+
+/* Whether a run needs a confirmation because of its estimated cost; text then receives
+ * the estimate and cheaper parameters.  False for invalid parameters, whose error comes
+ * at the start.
+ *
+ * particle_steps_per_s  measured speed; 0: none yet, an assumption is used */
+bool gb_run_lifecycle_cost_question(const struct gb_params *params,
+                                    double particle_steps_per_s, char *text, size_t size);
+
+/* The same for a quasi-static run, estimated from the time of its quick cell.  *seconds:
+ * estimated duration of the run, NaN: no estimate. */
+bool gb_run_lifecycle_cost_after_quick(const struct gb_params *full,
+                                       const struct gb_params *quick, double quick_s,
+                                       double *seconds, char *text, size_t size);
 
 #endif

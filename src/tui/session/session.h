@@ -7,29 +7,20 @@
 #include "io/measured.h"
 #include "io/preset.h"
 #include "runner/runner.h"
-#include "tui/session/chart_job.h"
-#include "tui/session/child_command.h"
-#include "tui/session/moduli_job.h"
-#include "tui/session/overlay/chart_csv.h"
-#include "tui/session/overlay/previous_curve.h"
-#include "tui/session/overlay/replica_band.h"
-#include "tui/session/past/kept_runs.h"
-#include "tui/session/past/param_steps.h"
+#include "tui/session/job.h"
+#include "tui/session/past.h"
+#include "tui/session/previous.h"
 #include "tui/session/quick_cell.h"
-#include "tui/session/result/results.h"
+#include "tui/session/results.h"
 
 /* State of the workbench without its screen: the parameters being edited, the current
  * run, its data on display and the previous curves. */
 
 enum {
     GB_SESSION_WHATIF = 800,
-    GB_SESSION_PREVIOUS = 6,
     GB_SESSION_LOG = 200,
     GB_SESSION_WHATIFS = GB_KEPT_RUN_WHATIFS
 };
-
-/* The cell that a curve comes from. */
-enum gb_session_cell { GB_SESSION_FULL_CELL, GB_SESSION_QUICK_CELL };
 
 struct gb_session {
     struct gb_preset *preset; /* the preset being edited */
@@ -50,9 +41,9 @@ struct gb_session {
     bool start_due;  /* the full cell is due */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, previous_total; /* number of previous curves, and of all so far */
-    struct gb_curve_label run_label; /* of the run on display */
-    struct gb_kept_runs kept;    /* runs and quick cells that can be shown again */
-    struct gb_param_steps steps; /* changes of the parameters */
+    struct gb_curve_label run_label;    /* of the run on display */
+    struct gb_kept_runs kept;           /* runs and quick cells that can be shown again */
+    struct gb_param_steps steps;        /* changes of the parameters */
     char whatif_text
         [GB_SESSION_WHATIF]; /* what-if that waits for the next point; "": none */
     size_t whatif_at[GB_SESSION_WHATIFS]; /* points of the curve where a what-if began */
@@ -63,8 +54,8 @@ struct gb_session {
     struct gb_results results;           /* what the jobs have found */
     struct gb_measured *measured;        /* measured data; NULL: none */
     int measured_dimension; /* of the scene that was shown when they were loaded */
-    char *reading; /* how its file was asked to be read, as --columns; owned */
-    struct gb_chart_csv *chart;  /* chart of numerical settings; NULL: none */
+    char *reading;          /* how its file was asked to be read, as --columns; owned */
+    struct gb_chart_csv *chart;         /* chart of numerical settings; NULL: none */
     struct gb_stability_csv *stability; /* of the methods; NULL: none */
     struct gb_chart_job chart_job;
     int runs;                    /* number of started runs */
@@ -102,8 +93,6 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err);
 
 /* Replaces the current run, whose curve becomes a previous curve, by a new one. */
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner);
-/* The same, by one that was shown before. */
-void gb_session_adopt(struct gb_session *session, struct gb_runner *runner);
 
 /* Opens a preset for editing; does not start it. */
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err);
@@ -144,5 +133,29 @@ void gb_session_note(struct gb_session *session, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Line `index` from the end (0: the last); NULL: none. */
 const char *gb_session_event_line(const struct gb_session *session, int index);
+
+/* A what-if: the current run continues from its next point with other values, in the
+ * syntax of gb_changes_add (scene/field/changes.h); its curve so far becomes a previous
+ * curve.  Errors: GB_ERR_INPUT. */
+bool gb_session_whatif_request(struct gb_session *session, const char *text,
+                               struct gb_error *err);
+
+/* After a change of the parameters: shows the run or quick cell of these parameters that
+ * is kept in memory, else starts a quick cell.  A run that was stopped by being replaced
+ * continues where its directory holds it. */
+void gb_session_recall_answer(struct gb_session *session);
+
+/* Goes to the parameters before (-1) or after (1) a change and answers; text receives what
+ * has changed, or that there is nothing.  False: nothing has changed. */
+bool gb_session_recall_step(struct gb_session *session, int direction, char *text,
+                            size_t size);
+
+/* Starts the quick cell of the edited parameters; the engine of the current run waits for
+ * it.  Nothing is computed for scenes without a quick cell and for the parameters of the
+ * current run.  False: no quick cell was started. */
+bool gb_session_quick_start(struct gb_session *session);
+
+/* Whether the full run is due after its quick cell; clears the flag. */
+bool gb_session_quick_take_due(struct gb_session *session);
 
 #endif

@@ -4,10 +4,246 @@
 #include <math.h>
 #include <ncurses.h>
 #include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "tui/term/text_fit.h"
+#include "base/units.h"
+
+/* Texts cut to the room there is.  A cut text ends with an ellipsis and never with a part
+ * of a number: "mu 0.15" gives "mu ..." and not "mu 0.1..."; nor with a part of its unit.  Only a text that is one number
+ * is cut among its decimals. */
+
+#define ELLIPSIS "\u2026"
+
+/* Decimals that a number is left at least where nothing else of a text fits. */
+enum { DECIMALS_MIN = 2 };
+
+static bool is_exponent_mark(const char *text, const char *at)
+{
+    return (*at == 'e' || *at == 'E') && at > text && g_ascii_isdigit(at[-1]);
+}
+
+/* Digits, a decimal point among them, an exponent with its sign. */
+static bool is_of_number(const char *text, const char *at)
+{
+    return g_ascii_isdigit(*at) || *at == '.' || is_exponent_mark(text, at) ||
+           ((*at == '-' || *at == '+') && at > text && is_exponent_mark(text, at - 1));
+}
+
+static bool has_digit(const char *from, const char *end)
+{
+    while (from < end && !g_ascii_isdigit(*from)) {
+        from++;
+    }
+    return from < end;
+}
+
+/* Whether a number from the beginning of a text is cut behind some of its decimals. */
+static bool is_cut_decimal(const char *text, const char *end)
+{
+    const char *point = memchr(text, '.', (size_t)(end - text));
+    for (const char *at = text; is_of_number(text, at); at++) {
+        if (is_exponent_mark(text, at)) {
+            return false;
+        }
+    }
+    return point != NULL && end - point > DECIMALS_MIN;
+}
+
+/* Whether a cut at this place takes the end of a word. */
+static bool is_in_word(const char *text, const char *end)
+{
+    return end > text && end[-1] != ' ' && g_ascii_isalpha(*end);
+}
+
+/* The end of a cut text without a part of the unit of a number: "2.9 s" says seconds where
+ * the text had standard errors. */
+static const char *leave_unit(const char *text, const char *end)
+{
+    const char *from = end;
+    if (!is_in_word(text, end)) {
+        return end;
+    }
+    while (from > text && from[-1] != ' ') {
+        from--;
+    }
+    return from - text >= 2 && g_ascii_isdigit(from[-2]) ? from - 1 : end;
+}
+
+/* The end of a cut text without the number there. */
+static const char *leave_number(const char *text, const char *end)
+{
+    const char *from = end = leave_unit(text, end);
+    while (from > text && is_of_number(text, from - 1)) {
+        from--;
+    }
+    if (!has_digit(from, end) || (from == text && is_cut_decimal(text, end))) {
+        return end;
+    }
+    return from;
+}
+
+/* Width of a character in cells: 0, 1 or 2. */
+static int paint_char_width(uint32_t ch)
+{
+    return g_unichar_iszerowidth(ch) ? 0 : g_unichar_iswide(ch) ? 2 : 1;
+}
+
+char *gb_paint_fit(const char *text, int cols)
+{
+    const char *end = text;
+    if (gb_paint_width(text) <= cols) {
+        return g_strdup(text);
+    }
+    for (int left = cols - 1; *end != '\0'; end = g_utf8_next_char(end)) {
+        left -= paint_char_width(g_utf8_get_char(end));
+        if (left < 0) {
+            break;
+        }
+    }
+    end = leave_number(text, end);
+    return cols > 0 ? g_strdup_printf("%.*s" ELLIPSIS, (int)(end - text), text)
+                    : g_strdup("");
+}
+
+char *gb_paint_fit_copy(char *to, size_t size, const char *text)
+{
+    const char *end = text;
+    if (strlen(text) < size) {
+        g_strlcpy(to, text, size);
+        return to;
+    }
+    while ((size_t)(g_utf8_next_char(end) - text) + sizeof ELLIPSIS <= size) {
+        end = g_utf8_next_char(end);
+    }
+    end = leave_number(text, end);
+    g_snprintf(to, (gulong)size, "%.*s" ELLIPSIS, (int)(end - text), text);
+    return to;
+}
+
+/* Draws one row of wrapped text; row -1: rows are only counted. */
+static void wrap_row(const struct gb_paint *paint, int row, enum gb_style style,
+                     const char *text)
+{
+    if (row >= 0) {
+        gb_paint_cell(paint, row, 1, paint->rect.cols - 2, style, text);
+    }
+}
+
+/* State of breaking a text into rows. */
+struct wrapping {
+    const struct gb_paint *paint;
+    int row, rows, used; /* row < 0: rows are only counted */
+    enum gb_style style;
+    GString *line;
+};
+
+static void end_row(struct wrapping *wrapping)
+{
+    if (wrapping->line->len > 0 && wrapping->used < wrapping->rows) {
+        wrap_row(wrapping->paint,
+                 wrapping->row < 0 ? wrapping->row : wrapping->row + wrapping->used,
+                 wrapping->style, wrapping->line->str);
+        wrapping->used++;
+    }
+    g_string_truncate(wrapping->line, 0);
+}
+
+/* A word longer than a row, such as a path, continues in the next one; returns its
+ * rest. */
+static const char *break_word(struct wrapping *wrapping, const char *word, int room)
+{
+    while (gb_paint_width(word) > room && wrapping->used < wrapping->rows - 1) {
+        for (int width = 0; width + paint_char_width(g_utf8_get_char(word)) <= room;) {
+            width += paint_char_width(g_utf8_get_char(word));
+            g_string_append_unichar(wrapping->line, g_utf8_get_char(word));
+            word = g_utf8_next_char(word);
+        }
+        end_row(wrapping);
+    }
+    return word;
+}
+
+/* The last row takes the rest of the text and ends with an ellipsis if it does not
+ * fit. */
+static void add_word(struct wrapping *wrapping, const char *word, int room)
+{
+    GString *line = wrapping->line;
+    const int width = gb_paint_width(line->str) + 1 + gb_paint_width(word);
+    if (line->len > 0 && width > room && wrapping->used < wrapping->rows - 1) {
+        end_row(wrapping);
+    }
+    if (line->len == 0) {
+        word = break_word(wrapping, word, room);
+    }
+    g_string_append_printf(line, "%s%s", line->len > 0 ? " " : "", word);
+}
+
+/* Whether a word is a unit, maybe before a comma or the like. */
+static bool is_unit(const char *word)
+{
+    const size_t length = strcspn(word, ".,;:)");
+    char *quantity = g_strdup_printf("1 %.*s", (int)length, word);
+    bool unit = false;
+    for (int d = 0; d <= GB_DIM_COMPLIANCE && length > 0 && !unit; d++) {
+        double value;
+        unit = gb_units_parse(quantity, (enum gb_dimension)d, &value, NULL);
+    }
+    g_free(quantity);
+    return unit;
+}
+
+/* Joins each number and the unit behind it: a row does not part them. */
+static void join_units(char **words)
+{
+    size_t last = 0;
+    if (words[0] == NULL) {
+        return;
+    }
+    for (size_t i = 1; words[i] != NULL; i++) {
+        const size_t length = strlen(words[last]);
+        if (length > 0 && g_ascii_isdigit(words[last][length - 1]) && is_unit(words[i])) {
+            char *both = g_strconcat(words[last], " ", words[i], NULL);
+            g_free(words[last]);
+            g_free(words[i]);
+            words[last] = both;
+        } else {
+            words[++last] = words[i];
+        }
+    }
+    words[last + 1] = NULL;
+}
+
+static int wrap(const struct gb_paint *paint, int row, int rows, enum gb_style style,
+                const char *text)
+{
+    struct wrapping wrapping = {paint, row, rows, 0, style, g_string_new(NULL)};
+    char *valid = g_utf8_make_valid(text, -1);
+    char **words = g_strsplit(valid, " ", -1);
+    join_units(words);
+    const int room = paint->rect.cols > 4 ? paint->rect.cols - 2 : 2;
+    for (int i = 0; words[i] != NULL && wrapping.used < rows; i++) {
+        add_word(&wrapping, words[i], room);
+    }
+    end_row(&wrapping);
+    g_string_free(wrapping.line, TRUE);
+    g_strfreev(words);
+    g_free(valid);
+    return wrapping.used;
+}
+
+int gb_paint_wrap(const struct gb_paint *paint, int row, int rows, enum gb_style style,
+                  const char *text)
+{
+    return wrap(paint, row, rows, style, text);
+}
+
+int gb_paint_wrap_rows(const struct gb_paint *paint, int rows, const char *text)
+{
+    return wrap(paint, -1, rows, GB_STYLE_PLAIN, text);
+}
 
 /* ASCII replacements of the symbols of the screen, for terminals without UTF-8. */
 static const struct {
@@ -38,16 +274,11 @@ static gunichar shown(const struct gb_paint *paint, gunichar ch)
     return '?';
 }
 
-int gb_paint_char_width(uint32_t ch)
-{
-    return g_unichar_iszerowidth(ch) ? 0 : g_unichar_iswide(ch) ? 2 : 1;
-}
-
 int gb_paint_width(const char *text)
 {
     int width = 0;
     for (const char *at = text; *at != '\0'; at = g_utf8_next_char(at)) {
-        width += gb_paint_char_width(g_utf8_get_char(at));
+        width += paint_char_width(g_utf8_get_char(at));
     }
     return width;
 }
@@ -80,13 +311,13 @@ int gb_paint_text(const struct gb_paint *paint, int row, int col, enum gb_style 
     char *valid = g_utf8_make_valid(text, -1);
     if (col >= 0 && gb_paint_width(valid) > paint->rect.cols - col) {
         char *whole = valid;
-        valid = gb_text_fit(whole, paint->rect.cols - col);
+        valid = gb_paint_fit(whole, paint->rect.cols - col);
         g_free(whole);
     }
     pen(paint, style);
     for (const char *at = valid; *at != '\0'; at = g_utf8_next_char(at)) {
         const gunichar ch = g_utf8_get_char(at);
-        const int width = gb_paint_char_width(ch);
+        const int width = paint_char_width(ch);
         if (inside(paint, row) && col >= 0 && width > 0 &&
             col + width <= paint->rect.cols) {
             put(paint, row, col, ch);
@@ -113,7 +344,7 @@ int gb_paint_cell(const struct gb_paint *paint, int row, int col, int cols,
                   enum gb_style style, const char *text)
 {
     char *valid = g_utf8_make_valid(text, -1);
-    char *fitted = gb_text_fit(valid, cols);
+    char *fitted = gb_paint_fit(valid, cols);
     char *padded =
         g_strdup_printf("%s%*s", fitted, MAX(cols - gb_paint_width(fitted), 0), "");
     col = gb_paint_text(paint, row, col, style, padded);

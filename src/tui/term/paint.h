@@ -1,9 +1,16 @@
 #ifndef GB_TUI_TERM_PAINT_H
 #define GB_TUI_TERM_PAINT_H
 
+#include <stddef.h>
+
 #include "tui/plot/plot.h"
-#include "tui/term/rect.h"
 #include "tui/term/term.h"
+
+/* The text in at most `cols` cells; g_free. */
+char *gb_paint_fit(const char *text, int cols);
+
+/* Copies the text into a buffer of `size` bytes.  Returns to. */
+char *gb_paint_fit_copy(char *to, size_t size, const char *text);
 
 /* Drawing into a rectangle of the screen.  Rows and columns count from its top left
  * corner; drawing outside is clipped, a text on the right with an ellipsis.  Control characters become '?'; without UTF-8,
@@ -54,8 +61,6 @@ void gb_paint_plot(const struct gb_paint *paint, int row, int col,
 
 /* Width of a text in cells. */
 int gb_paint_width(const char *text);
-/* Width of a character in cells: 0, 1 or 2. */
-int gb_paint_char_width(uint32_t ch);
 
 /* "0:07", "12:34", "3:04:05". */
 char *gb_paint_time(double seconds, char *buffer, size_t size);

@@ -2,11 +2,66 @@
 #define GB_TUI_TERM_PIXELS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "greenbody/snapshot.h"
-#include "tui/plot/packing_look.h"
-#include "tui/term/png_pixels.h"
-#include "tui/term/rect.h"
+#include "greenbody/status.h"
+#include "tui/plot/sphere_shading.h"
+#include "tui/term/term.h"
+
+/* A PNG file as pixels for the terminal. */
+struct gb_png_pixels {
+    int wide, high;
+    double
+        per_inch; /* pixels in print, where the file notes it; 0: it does not, or was read
+                        with its pixels */
+    uint8_t *rgb; /* 3 bytes a pixel, row by row from the top; NULL: measured only */
+};
+
+/* Width, height and density in print.  Errors: GB_ERR_INPUT (no PNG, too large), GB_ERR_MACHINE. */
+bool gb_pixels_png_measure(struct gb_png_pixels *out, const char *path,
+                           struct gb_error *err);
+
+/* All pixels, on white where they are transparent.  Errors: also GB_ERR_MEMORY. */
+bool gb_pixels_png_read(struct gb_png_pixels *out, const char *path,
+                        struct gb_error *err);
+
+void gb_pixels_png_finish(struct gb_png_pixels *pixels); /* zeroed is fine */
+
+/* What a pixel image shows: a packing or a picture. */
+struct gb_term_picture {
+    const struct gb_view_sample *sample; /* NULL: none */
+    const struct gb_png_pixels *picture; /* NULL: none */
+    const struct gb_packing_look *look;  /* at the packing */
+    const struct gb_rect *cells;         /* of the image */
+};
+
+/* The pixel image on the screen: drawn after a frame, deleted before a frame without it.
+ * At most one per second. */
+struct gb_term_image {
+    int images;   /* GB_IMAGES_NONE, _SIXEL or _KITTY */
+    bool shown;   /* visible now */
+    bool waiting; /* a new one is due */
+    struct gb_rect rect;
+    double density;                      /* hash of the packing shown */
+    struct gb_packing_look look;         /* at it */
+    const struct gb_png_pixels *picture; /* the picture shown; NULL: a packing */
+    int64_t repaints;
+    double last_s; /* clock of the last image, s */
+};
+
+void gb_pixels_image_init(struct gb_term_image *image, int images);
+
+/* Call before a frame.  True: the screen must be repainted to delete the image. */
+bool gb_pixels_image_before(struct gb_term_image *image, struct gb_term *term,
+                            const struct gb_term_picture *wanted);
+
+/* Call after a frame: draws the image into the cells if it is new or was deleted. */
+void gb_pixels_image_after(struct gb_term_image *image, struct gb_term *term,
+                           const struct gb_term_picture *wanted, double now_s);
+
+/* Whether a pending image may be drawn now. */
+bool gb_pixels_image_due(const struct gb_term_image *image, double now_s);
 
 /* The packing, or a picture, as a pixel image for terminals with an image protocol, encoded
  * by libchafa; without libchafa there are no images. */
@@ -21,18 +76,5 @@ int gb_pixels_detect(void);
 struct gb_pixels_cell {
     int width, height;
 };
-
-/* The shaded view of a packing as an escape sequence, sent with the cursor at the upper
- * left cell; g_free.  NULL: out of memory, or no libchafa. */
-char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
-                       const struct gb_packing_look *look, int rows, int cols,
-                       struct gb_pixels_cell cell);
-
-/* The same of a picture, over all of the cells. */
-char *gb_pixels_encode_picture(int images, const struct gb_png_pixels *picture, int rows,
-                               int cols, struct gb_pixels_cell cell);
-
-/* Sequence that deletes all images of the terminal; "" where text overwrites them. */
-const char *gb_pixels_wipe(int images);
 
 #endif

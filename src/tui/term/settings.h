@@ -23,7 +23,7 @@ enum gb_settings_images {
     GB_IMAGES_SIXEL,
     GB_IMAGES_KITTY
 };
-/* How a copied text reaches the terminal: see clipboard.h. */
+/* How a copied text reaches the terminal: see term.h. */
 enum gb_settings_clipboard {
     GB_CLIPBOARD_AUTO,
     GB_CLIPBOARD_OSC52,
@@ -32,8 +32,13 @@ enum gb_settings_clipboard {
     GB_CLIPBOARD_OFF
 };
 
-/* Colours: see term_theme.h. */
-enum gb_settings_theme { GB_THEME_AUTO, GB_THEME_LIGHT, GB_THEME_DARK, GB_THEME_CONTRAST };
+/* Colours: see term.h. */
+enum gb_settings_theme {
+    GB_THEME_AUTO,
+    GB_THEME_LIGHT,
+    GB_THEME_DARK,
+    GB_THEME_CONTRAST
+};
 
 struct gb_settings {
     int colour, theme, graph, images, clipboard; /* of the enums above */

@@ -1,36 +1,121 @@
+#define _GNU_SOURCE /* memfd_create */
+
 #include "tui/term/term.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <glib.h>
+#include <math.h>
 #include <ncurses.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/signalfd.h>
 #include <term.h>
 #include <unistd.h>
+#include <wchar.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "tui/term/crash.h"
-#include "tui/term/input/term_keys.h"
-#include "tui/term/input/term_signals.h"
+#include "greenbody/status.h"
+#include "tui/term/settings.h"
 #include "tui/term/term_profile.h"
-#include "tui/term/term_style.h"
-#include "tui/term/term_theme.h"
 #include "tui/term/term_tty.h"
 
-/* Width of a cell in pixels where the terminal does not report it. */
-enum { DEFAULT_CELL_WIDTH = 10 };
+/* The clipboard of the user's terminal, set by OSC 52: the terminal decodes the sequence,
+ * so that a text copied on a remote machine is pasted on the local one.  Source: xterm
+ * control sequences, "Manipulate Selection Data". */
+
+/* Part of a sequence in one string of GNU screen: below its limit of 768 bytes. */
+enum { SCREEN_PART = 512 };
+
+/* DCS tmux; ... ST with every Esc doubled. */
+static void add_tmux(GString *to, const char *plain)
+{
+    g_string_append(to, "\033Ptmux;");
+    for (const char *at = plain; *at != '\0'; at++) {
+        g_string_append(to, *at == '\033' ? "\033\033" : (char[]){*at, '\0'});
+    }
+    g_string_append(to, "\033\\");
+}
+
+/* DCS ... ST, which screen sends on; the terminal sees the parts as one sequence. */
+static void add_screen(GString *to, const char *plain)
+{
+    const size_t length = strlen(plain);
+    for (size_t at = 0; at < length; at += SCREEN_PART) {
+        g_string_append_printf(to, "\033P%.*s\033\\", SCREEN_PART, plain + at);
+    }
+}
+
+char *gb_term_clipboard_sequence(int clipboard, const char *text, struct gb_error *err)
+{
+    const size_t length = strlen(text);
+    if (clipboard == GB_CLIPBOARD_OFF) {
+        gb_error_set(err, GB_ERR_INPUT, "not copied: the setting clipboard is off");
+        return NULL;
+    }
+    if (length == 0) {
+        gb_error_set(err, GB_ERR_INPUT, "nothing to copy");
+        return NULL;
+    }
+    if (length > GB_CLIPBOARD_MAX) {
+        gb_error_set(err, GB_ERR_INPUT, "not copied: %zu bytes, terminals accept %d",
+                     length, GB_CLIPBOARD_MAX);
+        return NULL;
+    }
+    char *base64 = g_base64_encode((const unsigned char *)text, length);
+    char *plain = g_strdup_printf("\033]52;c;%s\a", base64);
+    GString *all = g_string_new(plain);
+    if (clipboard == GB_CLIPBOARD_TMUX) {
+        add_tmux(all, plain);
+    } else if (clipboard == GB_CLIPBOARD_SCREEN) {
+        add_screen(all, plain);
+    }
+    g_free(plain);
+    g_free(base64);
+    return g_string_free(all, FALSE);
+}
+
+/* With its default options tmux ignores both sequences of a program, but not its own
+ * command, which needs tmux 3.2.  The text is in a file in memory: nothing blocks. */
+static void load_buffer(const char *text)
+{
+    static const char *const words[] = {"tmux", "load-buffer", "-w", "-", NULL};
+    const size_t length = strlen(text);
+    const int fd = memfd_create("clipboard", MFD_CLOEXEC);
+    if (fd < 0) {
+        return;
+    }
+    if (write(fd, text, length) == (ssize_t)length && lseek(fd, 0, SEEK_SET) == 0) {
+        g_spawn_async_with_fds(NULL, (char **)words, NULL, G_SPAWN_SEARCH_PATH, NULL,
+                               NULL, NULL, fd, STDOUT_FILENO, STDERR_FILENO, NULL);
+    }
+    close(fd);
+}
+
+/* Signals as events to be read, instead of handlers. */
+enum { GB_TERM_SIGNALS = 7 };
+
+struct term_signals {
+    int fd; /* of a signalfd, to be polled; -1: none */
+    sigset_t mask_before;
+    struct sigaction before[GB_TERM_SIGNALS], pipe_before;
+};
 
 struct gb_term {
     SCREEN *screen;
     FILE *out, *in;
     int out_fd, in_fd;
     struct gb_term_keys keys;
-    struct gb_term_signals signals;
+    struct term_signals signals;
     int saved_out, saved_err;
     int64_t frames;
     double since_s; /* clock at the start, s */
@@ -40,6 +125,460 @@ struct gb_term {
     struct termios modes;
     uint64_t style[GB_STYLE_COUNT];
 };
+
+/* Sends a sequence that moves no cursor and changes no cell; how copies are sent, one of
+ * enum gb_settings_clipboard. */
+static void term_pass(struct gb_term *term, const char *sequence)
+{
+    fputs(sequence, term->out);
+    fflush(term->out);
+}
+
+static int term_clipboard(const struct gb_term *term)
+{
+    return term->profile.clipboard;
+}
+
+bool gb_term_clipboard_copy(struct gb_term *term, const char *text, struct gb_error *err)
+{
+    const int clipboard = term_clipboard(term);
+    char *sequence = gb_term_clipboard_sequence(clipboard, text, err);
+    if (sequence == NULL) {
+        return false;
+    }
+    term_pass(term, sequence);
+    g_free(sequence);
+    if (clipboard == GB_CLIPBOARD_TMUX && getenv("TMUX") != NULL) {
+        load_buffer(text);
+    }
+    return true;
+}
+
+/* Keys, text and mouse events from the bytes of a terminal.  The sequences are those that
+ * curses has from terminfo.  Not by curses' own reading, which measures its wait for the
+ * rest of a sequence by the time of day and waits for days where that is set back. */
+
+enum { ESCAPE = 27, DELETE = 127 };
+
+/* What the first bytes are.  Length 0: the beginning of something longer. */
+struct token {
+    size_t length;
+    struct gb_term_event event; /* GB_TERM_TIMEOUT: ignored */
+};
+
+static const struct token unfinished = {.length = 0};
+
+char *gb_term_keys_room(struct gb_term_keys *keys, size_t *size)
+{
+    *size = sizeof keys->bytes - keys->count;
+    return keys->bytes + keys->count;
+}
+
+void gb_term_keys_add(struct gb_term_keys *keys, size_t count, double now_s)
+{
+    keys->count += count;
+    keys->since_s = now_s;
+}
+
+static struct token ignored(size_t length)
+{
+    return (struct token){.length = length, .event = {.kind = GB_TERM_TIMEOUT}};
+}
+
+/* Button and modifiers as xterm encodes them: left button and wheel. */
+static struct token mouse_token(size_t length, int button, int col, int row)
+{
+    enum { MODIFIERS = 4 | 8 | 16, LEFT = 0, WHEEL_UP = 64, WHEEL_DOWN = 65 };
+    struct token token = ignored(length);
+    token.event.row = row - 1;
+    token.event.col = col - 1;
+    token.event.kind = GB_TERM_MOUSE;
+    switch (button & ~MODIFIERS) {
+    case LEFT:
+        token.event.code = GB_TERM_CLICK;
+        break;
+    case WHEEL_UP:
+        token.event.code = GB_TERM_WHEEL_UP;
+        break;
+    case WHEEL_DOWN:
+        token.event.code = GB_TERM_WHEEL_DOWN;
+        break;
+    default:
+        token.event.kind = GB_TERM_TIMEOUT;
+    }
+    return token;
+}
+
+/* Esc [ M and three bytes. */
+static struct token old_mouse(const char *bytes, size_t count)
+{
+    enum { LENGTH = 6, OFFSET = 32 };
+    const unsigned char *at = (const unsigned char *)bytes;
+    return count < LENGTH
+               ? unfinished
+               : mouse_token(LENGTH, at[3] - OFFSET, at[4] - OFFSET, at[5] - OFFSET);
+}
+
+/* Length of a control sequence, Esc [ parameters letter; 0: its end is not there. */
+static size_t control_length(const char *bytes, size_t count)
+{
+    for (size_t i = 2; i < count; i++) {
+        if (bytes[i] < ' ' || bytes[i] > '?') {
+            return bytes[i] == ESCAPE ? i : i + 1;
+        }
+    }
+    return 0;
+}
+
+/* One that terminfo does not have.  With parameters it is a key that means nothing here;
+ * without, Esc and text. */
+static struct token control_token(const char *bytes, size_t count)
+{
+    const size_t length = control_length(bytes, count);
+    int button, col, row;
+    char end;
+    if (length == 0) {
+        return unfinished;
+    }
+    char text[32] = "";
+    memcpy(text, bytes, length < sizeof text ? length : sizeof text - 1);
+    if (sscanf(text, "\033[<%d;%d;%d%c", &button, &col, &row, &end) == 4) {
+        return end == 'M' ? mouse_token(length, button, col, row) : ignored(length);
+    }
+    return ignored(length);
+}
+
+static struct token key_token(size_t length, int code)
+{
+    const enum gb_term_event_kind kind =
+        code == KEY_RESIZE ? GB_TERM_RESIZED : GB_TERM_KEY;
+    return (struct token){.length = length, .event = {.kind = kind, .code = code}};
+}
+
+/* One character of the locale; a byte that belongs to none is ignored. */
+static struct token character(const char *bytes, size_t count)
+{
+    const unsigned char first = (unsigned char)bytes[0];
+    if (first < ' ' || first == DELETE) {
+        return key_token(1, first);
+    }
+    mbstate_t state = {0};
+    wchar_t code = 0;
+    const size_t length = mbrtowc(&code, bytes, count, &state);
+    if (length == (size_t)-2) {
+        return unfinished;
+    }
+    if (length == (size_t)-1) {
+        return ignored(1);
+    }
+    return (struct token){.length = length,
+                          .event = {.kind = GB_TERM_TEXT, .code = (int32_t)code}};
+}
+
+/* A key of terminfo; length 0 with code ERR: the beginning of one; with 0: none. */
+static size_t defined_key(const char *bytes, size_t count, int *code)
+{
+    char sequence[GB_TERM_KEYS_BYTES + 1] = "";
+    *code = 0;
+    for (size_t n = 1; n <= count && bytes[n - 1] != '\0'; n++) {
+        sequence[n - 1] = bytes[n - 1];
+        *code = key_defined(sequence);
+        if (*code != ERR) {
+            return *code > 0 ? n : 0;
+        }
+    }
+    return 0;
+}
+
+static bool begins(const char *bytes, size_t count, const char *with)
+{
+    return count >= strlen(with) && memcmp(bytes, with, strlen(with)) == 0;
+}
+
+static struct token understand(const char *bytes, size_t count)
+{
+    int code;
+    const size_t length = defined_key(bytes, count, &code);
+    if (begins(bytes, count, "\033[M") && code == KEY_MOUSE) {
+        return old_mouse(bytes, count);
+    }
+    if (length > 0 && code != KEY_MOUSE) {
+        return key_token(length, code);
+    }
+    if (count > 2 && begins(bytes, count, "\033[") && bytes[2] >= '0' &&
+        bytes[2] <= '?') {
+        return control_token(bytes, count);
+    }
+    return code == ERR ? unfinished : character(bytes, count);
+}
+
+static void take(struct gb_term_keys *keys, size_t length)
+{
+    keys->count -= length;
+    memmove(keys->bytes, keys->bytes + length, keys->count);
+}
+
+static bool rest_is_late(const struct gb_term_keys *keys, double now_s)
+{
+    return keys->count == sizeof keys->bytes ||
+           now_s - keys->since_s >= GB_TERM_KEYS_REST_S;
+}
+
+bool gb_term_keys_next(struct gb_term_keys *keys, double now_s,
+                       struct gb_term_event *event)
+{
+    while (keys->count > 0) {
+        struct token token = understand(keys->bytes, keys->count);
+        if (token.length == 0 && !rest_is_late(keys, now_s)) {
+            return false;
+        }
+        if (token.length == 0) { /* the first byte for itself */
+            token = character(keys->bytes, 1);
+        }
+        take(keys, token.length > 0 ? token.length : 1);
+        if (token.length > 0 && token.event.kind != GB_TERM_TIMEOUT) {
+            *event = token.event;
+            return true;
+        }
+    }
+    return false;
+}
+
+int gb_term_keys_wait_ms(const struct gb_term_keys *keys, double now_s, int timeout_ms)
+{
+    if (keys->count == 0) {
+        return timeout_ms;
+    }
+    const double left_s = keys->since_s + GB_TERM_KEYS_REST_S - now_s;
+    const int left_ms = (int)ceil(1e3 * fmax(left_s, 0.0));
+    return timeout_ms < 0 || left_ms < timeout_ms ? left_ms : timeout_ms;
+}
+
+static const int handled[GB_TERM_SIGNALS] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
+                                             SIGTSTP, SIGCONT, SIGWINCH};
+
+/* Blocks SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT and SIGWINCH in this thread and
+ * those that it starts; ignores SIGPIPE. */
+static void term_signals_catch(struct term_signals *signals)
+{
+    sigset_t mask;
+    sigemptyset(&mask);
+    for (int i = 0; i < GB_TERM_SIGNALS; i++) {
+        sigaction(handled[i], NULL, &signals->before[i]);
+        sigaddset(&mask, handled[i]);
+    }
+    const struct sigaction ignore = {.sa_handler = SIG_IGN};
+    sigaction(SIGPIPE, &ignore, &signals->pipe_before);
+    pthread_sigmask(SIG_BLOCK, &mask, &signals->mask_before);
+    signals->fd = signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+/* Leaves the signals blocked for good. */
+static void term_signals_give_up(struct term_signals *signals)
+{
+    close(signals->fd);
+    signals->fd = -1;
+}
+
+/* The next signal; 0: none. */
+static int term_signals_read(const struct term_signals *signals)
+{
+    struct signalfd_siginfo info;
+    const bool whole = read(signals->fd, &info, sizeof info) == (ssize_t)sizeof info;
+    return whole ? (int)info.ssi_signo : 0;
+}
+
+/* Restores what was there before.  Pending signals are discarded: they requested the end
+ * that has come.  No effect after giving up. */
+static void term_signals_release(struct term_signals *signals)
+{
+    if (signals->fd < 0) {
+        return;
+    }
+    while (term_signals_read(signals) != 0) {
+    }
+    for (int i = 0; i < GB_TERM_SIGNALS; i++) {
+        sigaction(handled[i], &signals->before[i], NULL);
+    }
+    sigaction(SIGPIPE, &signals->pipe_before, NULL);
+    term_signals_give_up(signals);
+    pthread_sigmask(SIG_SETMASK, &signals->mask_before, NULL);
+}
+
+/* Stops the process; returns after SIGCONT. */
+static void term_signals_stop(void)
+{
+    sigset_t stop;
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGTSTP);
+    const struct sigaction plain = {.sa_handler = SIG_DFL};
+    sigaction(SIGTSTP, &plain, NULL);
+    pthread_sigmask(SIG_UNBLOCK, &stop, NULL);
+    raise(SIGTSTP);
+    pthread_sigmask(SIG_BLOCK, &stop, NULL);
+}
+
+/* Colours of a theme, as numbers of the 256 and the 16 colours of terminals; the latter
+ * modulo 8 where there are only eight.  -1: the terminal's own. */
+
+enum { WHITE_16 = 15, WHITE_256 = 231, BLACK_256 = 16, LIGHT_GREY_16 = 7 };
+
+/* Series: sky blue, orange, green, pink, red, blue: the hues of Okabe and Ito. */
+#define PLAIN_16                                                                         \
+    {                                                                                    \
+        6, 3, 2, 5, 1, 4                                                                 \
+    }
+#define BRIGHT_16                                                                        \
+    {                                                                                    \
+        14, 11, 10, 13, 9, 12                                                            \
+    }
+
+static const struct gb_term_theme themes[] = {
+    [GB_THEME_AUTO] = {{39, 208, 108, 139, 160, 25}, PLAIN_16, 244, 8, -1, -1, -1, -1},
+    [GB_THEME_LIGHT] = {{32, 136, 65, 139, 124, 24}, PLAIN_16, 240, 8, -1, -1, -1, -1},
+    [GB_THEME_DARK] =
+        {{45, 221, 151, 169, 196, 33}, BRIGHT_16, 247, LIGHT_GREY_16, -1, -1, -1, -1},
+    [GB_THEME_CONTRAST] = {{81, 214, 35, 211, 223, 111},
+                           BRIGHT_16,
+                           WHITE_256,
+                           WHITE_16,
+                           WHITE_256,
+                           WHITE_16,
+                           BLACK_256,
+                           0},
+};
+
+const struct gb_term_theme *gb_term_theme_row(int theme)
+{
+    return &themes[theme];
+}
+
+int gb_term_theme_resolve(int theme, const char *colorfgbg)
+{
+    const char *background = colorfgbg != NULL ? strrchr(colorfgbg, ';') : NULL;
+    char *end = NULL;
+    const long colour = background != NULL ? strtol(background + 1, &end, 10) : -1;
+    if (theme != GB_THEME_AUTO || background == NULL || end == background + 1 ||
+        *end != '\0' || colour < 0 || colour > WHITE_16) {
+        return theme;
+    }
+    return colour == LIGHT_GREY_16 || colour > LIGHT_GREY_16 + 1 ? GB_THEME_LIGHT
+                                                                 : GB_THEME_DARK;
+}
+
+/* Numbers of colour pairs; those of the shades come last. */
+enum {
+    SERIES = GB_TERM_THEME_SERIES,
+    GREY_PAIR = SERIES + 1,
+    TEXT_PAIR,
+    SHADE_PAIRS,
+    PAIRS = SHADE_PAIRS + GB_TERM_SHADES * (GB_TERM_SHADES + 1)
+};
+
+static void set_plain(uint64_t *style)
+{
+    style[GB_STYLE_PLAIN] = A_NORMAL;
+    style[GB_STYLE_DIM] = A_DIM;
+    style[GB_STYLE_BOLD] = A_BOLD;
+    style[GB_STYLE_TITLE] = A_NORMAL;
+    style[GB_STYLE_FOCUS] = A_REVERSE | A_BOLD;
+    style[GB_STYLE_SELECTED] = A_REVERSE;
+    style[GB_STYLE_EDIT] = A_UNDERLINE | A_BOLD;
+    style[GB_STYLE_CHANGED] = A_BOLD;
+    style[GB_STYLE_GOOD] = A_NORMAL;
+    style[GB_STYLE_WARN] = A_BOLD;
+    style[GB_STYLE_BAD] = A_BOLD;
+    for (int i = 0; i < SERIES; i++) {
+        style[GB_STYLE_SERIES + i] = A_NORMAL;
+    }
+}
+
+/* The colour that the terminal has. */
+static short of_terminal(short colour_256, short colour_16)
+{
+    return COLORS >= 256                   ? colour_256
+           : COLORS >= 16 || colour_16 < 0 ? colour_16
+                                           : (short)(colour_16 % 8);
+}
+
+static short background_of(const struct gb_term_theme *theme)
+{
+    return of_terminal(theme->background, theme->background_16);
+}
+
+/* Text without a pair of its own gets the pair of the background, too. */
+static void paint_background(const struct gb_term_theme *theme)
+{
+    init_pair(TEXT_PAIR, of_terminal(theme->text, theme->text_16), background_of(theme));
+    bkgdset(theme->background < 0 ? ' ' : (chtype)' ' | (chtype)COLOR_PAIR(TEXT_PAIR));
+}
+
+static void set_colours(uint64_t *style, const struct gb_term_theme *theme)
+{
+    const short back = background_of(theme);
+    uint64_t pair[SERIES];
+    for (short i = 0; i < SERIES; i++) {
+        init_pair((short)(i + 1), of_terminal(theme->series[i], theme->series_16[i]),
+                  back);
+        pair[i] = (uint64_t)COLOR_PAIR(i + 1);
+        style[GB_STYLE_SERIES + i] = pair[i];
+    }
+    if (COLORS >= 16) {
+        init_pair(GREY_PAIR, of_terminal(theme->grey, theme->grey_16), back);
+        style[GB_STYLE_DIM] = (uint64_t)COLOR_PAIR(GREY_PAIR);
+    }
+    style[GB_STYLE_CHANGED] = pair[1] | A_BOLD;
+    style[GB_STYLE_GOOD] = pair[2];
+    style[GB_STYLE_WARN] = pair[1] | A_BOLD;
+    style[GB_STYLE_BAD] = pair[4] | A_BOLD;
+    style[GB_STYLE_FOCUS] = pair[0] | A_REVERSE | A_BOLD;
+}
+
+/* One hue from dark to light: depth is visible with every kind of colour vision. */
+static const short shades_256[GB_TERM_SHADES] = {17, 23, 24, 31, 38, 74, 117, 195};
+
+static short shade_pair(int shade, int back)
+{
+    return (short)(SHADE_PAIRS + shade * (GB_TERM_SHADES + 1) + back + 1);
+}
+
+static bool set_shades(short background)
+{
+    if (COLORS < 256 || COLOR_PAIRS < PAIRS) {
+        return false;
+    }
+    for (int shade = 0; shade < GB_TERM_SHADES; shade++) {
+        for (int back = -1; back < GB_TERM_SHADES; back++) {
+            init_pair(shade_pair(shade, back), shades_256[shade],
+                      back < 0 ? background : shades_256[back]);
+        }
+    }
+    return true;
+}
+
+/* Attributes of a shade on a background of another shade; -1: background of the theme. */
+static uint64_t term_style_shade(int shade, int back)
+{
+    return (uint64_t)COLOR_PAIR(shade_pair(shade, back));
+}
+
+/* curses attributes of every enum gb_style for the current terminal: 256, 16, 8 or no
+ * colours, none unless `coloured`; the colours and the background of all cells are those
+ * of the theme.  True: shades are available, too. */
+static bool term_style_init(uint64_t *style, bool coloured, int theme)
+{
+    const struct gb_term_theme *row = gb_term_theme_row(theme);
+    set_plain(style);
+    if (!coloured || !has_colors() || start_color() != OK || use_default_colors() != OK) {
+        return false;
+    }
+    paint_background(row);
+    set_colours(style, row);
+    return set_shades(background_of(row));
+}
+
+/* Width of a cell in pixels where the terminal does not report it. */
+enum { DEFAULT_CELL_WIDTH = 10 };
 
 static void set_modes(void)
 {
@@ -74,7 +613,7 @@ static void install_crash_handler(const struct gb_term *term)
                plain != NULL && plain != (char *)-1 ? plain : "",
                leave != NULL && leave != (char *)-1 ? leave : "",
                cursor != NULL && cursor != (char *)-1 ? cursor : "");
-    gb_crash_install(term->out_fd, term->saved_err, &term->modes, reset);
+    gb_term_tty_crash_install(term->out_fd, term->saved_err, &term->modes, reset);
 }
 
 static int duplicate(int fd)
@@ -133,9 +672,9 @@ bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
     if (!gb_term_profile_detect(&term->profile, term->out_fd, settings, err)) {
         goto fail;
     }
-    gb_term_signals_catch(&term->signals);
+    term_signals_catch(&term->signals);
     if (!start_screen(term, term->profile.type, err)) {
-        gb_term_signals_release(&term->signals);
+        term_signals_release(&term->signals);
         goto fail;
     }
     gb_term_tty_redirect();
@@ -152,7 +691,7 @@ fail:
 
 void gb_term_stop(struct gb_term *term)
 {
-    gb_crash_remove();
+    gb_term_tty_crash_remove();
     endwin();
     delscreen(term->screen);
     fprintf(stderr, "greenbody: frames drawn: %lld in %.1f s\n", /* into the log */
@@ -163,8 +702,8 @@ void gb_term_stop(struct gb_term *term)
 
 void gb_term_abandon(struct gb_term *term)
 {
-    gb_crash_remove();
-    gb_term_signals_give_up(&term->signals);
+    gb_term_tty_crash_remove();
+    term_signals_give_up(&term->signals);
     close_streams(term);
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (nothing >= 0) {
@@ -176,16 +715,18 @@ void gb_term_abandon(struct gb_term *term)
 void gb_term_destroy(struct gb_term *term)
 {
     if (term != NULL) {
-        gb_term_signals_release(&term->signals);
+        term_signals_release(&term->signals);
     }
     gb_alloc_free(term);
 }
 
-void gb_term_suspend(struct gb_term *term)
+/* Stops the process as Ctrl-Z does, and takes over the terminal again when it
+ * continues. */
+static void term_suspend(struct gb_term *term)
 {
     endwin();
     gb_term_tty_restore(term->saved_out, term->saved_err);
-    gb_term_signals_stop();
+    term_signals_stop();
     gb_term_tty_redirect();
     set_modes();
 }
@@ -204,7 +745,7 @@ static struct gb_term_event resized(struct gb_term *term)
 
 static struct gb_term_event from_signal(struct gb_term *term)
 {
-    const int signal = gb_term_signals_read(&term->signals);
+    const int signal = term_signals_read(&term->signals);
     switch (signal) {
     case SIGINT:
         return (struct gb_term_event){.kind = GB_TERM_INTERRUPT, .code = SIGINT};
@@ -214,7 +755,7 @@ static struct gb_term_event from_signal(struct gb_term *term)
     case SIGHUP:
         return (struct gb_term_event){.kind = GB_TERM_HANGUP, .code = SIGHUP};
     case SIGTSTP:
-        gb_term_suspend(term);
+        term_suspend(term);
         gb_term_repaint(term);
         return resized(term);
     case SIGCONT:
@@ -272,8 +813,8 @@ struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
 void gb_term_set_theme(struct gb_term *term, int theme)
 {
     term->profile.theme = theme;
-    term->shaded = gb_term_style_init(term->style, term->profile.coloured,
-                                      gb_term_theme_resolve(theme, getenv("COLORFGBG")));
+    term->shaded = term_style_init(term->style, term->profile.coloured,
+                                   gb_term_theme_resolve(theme, getenv("COLORFGBG")));
 }
 
 int gb_term_present_theme(const struct gb_term *term)
@@ -318,7 +859,7 @@ bool gb_term_shaded(const struct gb_term *term)
 uint64_t gb_term_shade(const struct gb_term *term, int shade, int back)
 {
     (void)term;
-    return gb_term_style_shade(shade, back);
+    return term_style_shade(shade, back);
 }
 
 uint64_t gb_term_attributes(const struct gb_term *term, enum gb_style style)
@@ -363,15 +904,4 @@ void gb_term_send(struct gb_term *term, int row, int col, const char *text)
 {
     fprintf(term->out, "\0337\033[%d;%dH%s\0338", row + 1, col + 1, text);
     fflush(term->out);
-}
-
-void gb_term_pass(struct gb_term *term, const char *sequence)
-{
-    fputs(sequence, term->out);
-    fflush(term->out);
-}
-
-int gb_term_clipboard(const struct gb_term *term)
-{
-    return term->profile.clipboard;
 }

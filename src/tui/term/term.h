@@ -2,14 +2,98 @@
 #define GB_TUI_TERM_TERM_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "greenbody/status.h"
 #include "tui/term/settings.h"
 
+/* Longest text, bytes: its Base64 form and header are the 100,000 bytes that terminals
+ * with a limit accept. */
+enum { GB_CLIPBOARD_MAX = 74994 };
+
+/* The sequence by one of enum gb_settings_clipboard: OSC52; TMUX, also with the passthrough
+ * of tmux; SCREEN, also with the passthrough of GNU screen, whose strings are limited to
+ * 768 bytes.  g_free.  Errors: GB_ERR_INPUT for a text that is empty or too long, or with
+ * the clipboard off. */
+char *gb_term_clipboard_sequence(int clipboard, const char *text, struct gb_error *err);
+
 /* The terminal: taken over at the start and restored at every exit.  While curses uses
  * it, standard output and standard error go to a log file. */
 struct gb_term;
+
+/* Sends a text to the clipboard.  Whether the terminal accepts it is not reported by any
+ * terminal.  Inside of tmux the text becomes its newest paste buffer, too.  Errors: as
+ * above. */
+bool gb_term_clipboard_copy(struct gb_term *term, const char *text, struct gb_error *err);
+
+/* A rectangle of character cells; rows or cols 0: hidden. */
+struct gb_rect {
+    int row, col;
+    int rows, cols;
+};
+
+/* Longest time between Esc and the rest of a function key, s. */
+#define GB_TERM_KEYS_REST_S 0.04
+
+enum { GB_TERM_KEYS_BYTES = 256 };
+
+struct gb_term_keys {
+    char bytes[GB_TERM_KEYS_BYTES]; /* not yet understood */
+    size_t count;
+    double since_s; /* clock when the last of them came */
+};
+
+/* Room for bytes to be read, and its size; never 0 after gb_term_keys_next was false. */
+char *gb_term_keys_room(struct gb_term_keys *keys, size_t *size);
+
+/* So many bytes were read into the room. */
+void gb_term_keys_add(struct gb_term_keys *keys, size_t count, double now_s);
+
+enum gb_term_event_kind {
+    GB_TERM_TIMEOUT,   /* timeout */
+    GB_TERM_KEY,       /* curses key code or control character */
+    GB_TERM_TEXT,      /* printable character */
+    GB_TERM_MOUSE,     /* code: one of gb_term_mouse_code, at row, col */
+    GB_TERM_RESIZED,   /* also after a suspension: redraw everything */
+    GB_TERM_INTERRUPT, /* SIGINT */
+    GB_TERM_TERMINATE, /* SIGTERM, SIGQUIT */
+    GB_TERM_HANGUP     /* SIGHUP, or the terminal is closed: no more output to it */
+};
+
+struct gb_term_event {
+    enum gb_term_event_kind kind;
+    int32_t code;
+    int row, col; /* of the mouse */
+};
+
+/* The next event, if there is one.  The first bytes of a longer sequence are kept until its
+ * rest comes or too much time has passed. */
+bool gb_term_keys_next(struct gb_term_keys *keys, double now_s,
+                       struct gb_term_event *event);
+
+/* Time until bytes that are kept are keys of their own, ms; at most timeout_ms, which is
+ * negative for no limit. */
+int gb_term_keys_wait_ms(const struct gb_term_keys *keys, double now_s, int timeout_ms);
+
+enum { GB_TERM_THEME_SERIES = 6 };
+
+struct gb_term_theme {
+    short series[GB_TERM_THEME_SERIES], series_16[GB_TERM_THEME_SERIES];
+    short grey, grey_16;
+    short text, text_16;
+    short background, background_16; /* of all cells */
+};
+
+/* theme: of enum gb_settings_theme.  Of the six series any two differ by at least 15 in
+ * CIELAB, also for protanopia, deuteranopia and tritanopia (matrices of Machado et al.
+ * 2009).  Contrast, as in WCAG: light at least 3 on white, dark 5 on black, contrast 7 on
+ * its black background; auto 2.4 on white and 3.2 on black. */
+const struct gb_term_theme *gb_term_theme_row(int theme);
+
+/* The theme itself; auto becomes light or dark for a terminal that tells its background in
+ * $COLORFGBG ("15;0"; NULL: it does not). */
+int gb_term_theme_resolve(int theme, const char *colorfgbg);
 
 /* Styles by meaning.  Their attributes depend on the terminal and on NO_COLOR; every
  * meaning is also shown by a word or a symbol. */
@@ -29,24 +113,7 @@ enum gb_style {
     GB_STYLE_COUNT = GB_STYLE_SERIES + 6
 };
 
-enum gb_term_event_kind {
-    GB_TERM_TIMEOUT,   /* timeout */
-    GB_TERM_KEY,       /* curses key code or control character */
-    GB_TERM_TEXT,      /* printable character */
-    GB_TERM_MOUSE,     /* code: one of gb_term_mouse_code, at row, col */
-    GB_TERM_RESIZED,   /* also after a suspension: redraw everything */
-    GB_TERM_INTERRUPT, /* SIGINT */
-    GB_TERM_TERMINATE, /* SIGTERM, SIGQUIT */
-    GB_TERM_HANGUP     /* SIGHUP, or the terminal is closed: no more output to it */
-};
-
 enum gb_term_mouse_code { GB_TERM_CLICK, GB_TERM_WHEEL_UP, GB_TERM_WHEEL_DOWN };
-
-struct gb_term_event {
-    enum gb_term_event_kind kind;
-    int32_t code;
-    int row, col; /* of the mouse */
-};
 
 /* Takes over the terminal.  Errors: GB_ERR_MACHINE for no terminal, for a type without
  * cursor addressing and without fallback; nothing has been changed then. */
@@ -65,10 +132,6 @@ void gb_term_destroy(struct gb_term *term);
 
 /* Waits for an event, at most timeout_ms (negative: without limit). */
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms);
-
-/* Stops the process as Ctrl-Z does, and takes over the terminal again when it
- * continues. */
-void gb_term_suspend(struct gb_term *term);
 
 /* Redraws the whole screen with the next flush, whatever the terminal shows. */
 void gb_term_repaint(struct gb_term *term);
@@ -95,11 +158,6 @@ int gb_term_images(const struct gb_term *term);
 void gb_term_cell(const struct gb_term *term, int *width, int *height);
 int64_t gb_term_repaints(const struct gb_term *term);
 void gb_term_send(struct gb_term *term, int row, int col, const char *text);
-
-/* Sends a sequence that moves no cursor and changes no cell; how copies are sent, one of
- * enum gb_settings_clipboard. */
-void gb_term_pass(struct gb_term *term, const char *sequence);
-int gb_term_clipboard(const struct gb_term *term);
 
 /* The colours, one of enum gb_settings_theme; without colours it has no effect.  Takes
  * effect with the next frame. */

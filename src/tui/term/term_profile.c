@@ -12,7 +12,7 @@
 
 #include "base/text/visible.h"
 #include "tui/term/pixels.h"
-#include "tui/term/term_theme.h"
+#include "tui/term/term.h"
 #include "tui/term/term_tty.h"
 
 static const char *from_env(const char *name)

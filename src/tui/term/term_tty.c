@@ -4,15 +4,35 @@
 #include <fcntl.h>
 #include <glib.h>
 #include <ncurses.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <term.h>
+#include <termios.h>
 #include <unistd.h>
 
-char *gb_term_tty_log(void)
+enum { TAIL_BYTES = 1024 };
+
+void gb_term_tty_tail_init(struct gb_stderr_tail *stderr_tail)
 {
-    return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
+    stderr_tail->length = -1;
+}
+
+/* The last line of a text, without control characters. */
+static bool last_line(char *text, char *line, size_t size)
+{
+    g_strchomp(text);
+    const char *end = strrchr(text, '\n');
+    g_strlcpy(line, end != NULL ? end + 1 : text, size);
+    for (char *at = line; *at != '\0'; at++) {
+        *at = *at == '\033' || g_ascii_iscntrl(*at) ? ' ' : *at;
+    }
+    return *line != '\0';
 }
 
 /* The log, if it is a file; a pipe without a reader or writer would block for ever. */
@@ -28,12 +48,114 @@ static int open_file(const char *path, int flags)
     return fd;
 }
 
-int gb_term_tty_read_log(void)
+/* Descriptor of the log for reading; -1: error. */
+static int term_tty_read_log(void)
 {
     char *path = gb_term_tty_log();
     const int fd = open_file(path, O_RDONLY);
     g_free(path);
     return fd;
+}
+
+bool gb_term_tty_tail_poll(struct gb_stderr_tail *stderr_tail, char *line, size_t size)
+{
+    struct stat now;
+    char text[TAIL_BYTES + 1];
+    if (fstat(STDERR_FILENO, &now) != 0 || !S_ISREG(now.st_mode)) {
+        return false;
+    }
+    const int64_t before = stderr_tail->length;
+    stderr_tail->length = now.st_size;
+    if (before < 0 || now.st_size <= before) {
+        return false;
+    }
+    const int64_t from = MAX(before, now.st_size - TAIL_BYTES);
+    const int log = term_tty_read_log();
+    const ssize_t n = log < 0 ? -1 : pread(log, text, TAIL_BYTES, from);
+    if (log >= 0) {
+        close(log);
+    }
+    text[n > 0 ? n : 0] = '\0';
+    return n > 0 && last_line(text, line, size);
+}
+
+static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+enum { FAULTS = sizeof faults / sizeof faults[0] };
+
+/* File scope: a signal handler has no argument for its data. */
+static struct {
+    int screen, err;
+    struct termios modes;
+    char reset[256];
+    size_t length;
+    struct sigaction before[FAULTS];
+    char state[4200],
+        resume[4300]; /* path of the checkpoint, and the line that names it */
+} installed;
+
+static bool put(const char *text, size_t length)
+{
+    return write(installed.err, text, length) >= 0;
+}
+
+static void handle(int number)
+{
+    static const char text[] =
+        "greenbody: the program has failed; the terminal was restored\n";
+    if (write(installed.screen, installed.reset, installed.length) < 0) {
+        _exit(128 + number);
+    }
+    tcsetattr(installed.screen, TCSANOW, &installed.modes);
+    dup2(installed.err, STDERR_FILENO);
+    if (!put(text, sizeof text - 1) ||
+        (installed.state[0] != '\0' && access(installed.state, R_OK) == 0 &&
+         !put(installed.resume, strlen(installed.resume)))) {
+        _exit(128 + number);
+    }
+    for (int i = 0; i < FAULTS; i++) {
+        sigaction(faults[i], &installed.before[i], NULL);
+    }
+    raise(number);
+}
+
+void gb_term_tty_crash_install(int screen, int err, const struct termios *modes,
+                               const char *reset)
+{
+    installed.screen = screen;
+    installed.err = err;
+    installed.modes = *modes;
+    snprintf(installed.reset, sizeof installed.reset, "%s", reset);
+    installed.length = strlen(installed.reset);
+    struct sigaction action = {.sa_handler = handle};
+    sigemptyset(&action.sa_mask);
+    for (int i = 0; i < FAULTS; i++) {
+        sigaction(faults[i], &action, &installed.before[i]);
+    }
+}
+
+void gb_term_tty_crash_remove(void)
+{
+    for (int i = 0; i < FAULTS; i++) {
+        sigaction(faults[i], &installed.before[i], NULL);
+    }
+}
+
+void gb_term_tty_crash_set_run(const char *directory)
+{
+    installed.state[0] = '\0'; /* set after the line is complete */
+    if (directory == NULL) {
+        return;
+    }
+    snprintf(installed.resume, sizeof installed.resume,
+             "greenbody: continue from the last checkpoint with: greenbody resume '%s'\n",
+             directory);
+    snprintf(installed.state, sizeof installed.state, "%s/state.h5", directory);
+}
+
+char *gb_term_tty_log(void)
+{
+    return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
 }
 
 /* -1 with errno; ENXIO: it is no file. */

@@ -2,12 +2,445 @@
 
 #include <glib.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "scene/loading_kind.h"
-#include "tui/session/overlay/previous_list.h"
-#include "tui/term/text_fit.h"
+#include "tui/session/previous.h"
+#include "tui/term/paint.h"
 #include "tui/view/view_legs.h"
+
+/* Branches of the run's curve: loading, unloading, and the stages of a dynamic run. */
+
+enum {
+    MARK_LOAD = 1,
+    MARK_UNLOAD = 2,
+    MARK_RELAX = 3,
+    MARK_HOLD = 4,
+    MARKS = 7,
+    COLOURS = 5,
+    UNLOAD_SPACING = 7
+};
+
+enum { INK_RELAX = GB_PLOT_INK_SERIES + 2, INK_HOLD = GB_PLOT_INK_SERIES + 4 };
+
+static bool is_dynamic(const struct gb_session *session)
+{
+    return gb_loading_kind_of(gb_session_shown(session).params)->given_rate;
+}
+
+static const struct gb_point *point_at(const struct gb_view_curve *view, size_t i)
+{
+    return gb_curve_at(gb_runner_curve(view->session->runner), i);
+}
+
+static bool is_stage_of_cycle(int branch)
+{
+    return branch < GB_BRANCH_HOLD && branch >= GB_BRANCH_LEAST;
+}
+
+/* A quasi-static run has no stages: its initial state is part of loading. */
+static bool on_branch(const struct gb_point *point, int branch, bool dynamic)
+{
+    if (!dynamic && point->branch <= 0 && point->branch >= GB_BRANCH_LEG &&
+        !is_stage_of_cycle(point->branch)) {
+        return branch == GB_BRANCH_LOAD;
+    }
+    return point->branch == branch;
+}
+
+/* x coordinate of a point: relative density, ns or step. */
+static double view_curve_x(const struct gb_view_curve *view, const struct gb_point *point)
+{
+    return gb_panel_plot_cursor_x(view->panel, view->session, point);
+}
+
+static void put_point(const struct gb_view_curve *view, size_t at,
+                      const struct gb_point *point)
+{
+    view->panel->x[at] = view_curve_x(view, point);
+    view->panel->y[at] = point->p_pa / view->unit_pa;
+}
+
+static bool against_time(const struct gb_view_curve *view)
+{
+    return view->panel->view->abscissa == GB_VIEW_ELAPSED;
+}
+
+/* Collects the points of a branch in the panel.  A branch starts at the point that it
+ * leaves: a stage or a leg at the last point of the one before, an unloading branch at its point
+ * of the loading branch.  Against time, NaN separates it from branches in between. */
+static size_t gather(const struct gb_view_curve *view, int branch, double *from_pa)
+{
+    const bool dynamic = is_dynamic(view->session);
+    const bool against_time = view->panel->view->abscissa == GB_VIEW_ELAPSED;
+    const struct gb_point *root = NULL;
+    size_t n = 0;
+    bool gap = false;
+    for (size_t i = 0; i < view->session->points; i++) {
+        const struct gb_point *point = point_at(view, i);
+        const bool member = on_branch(point, branch, dynamic);
+        if (member && n == 0 && root != NULL) {
+            put_point(view, n++, root);
+        } else if (member && gap && against_time) {
+            view->panel->x[n] = NAN;
+            view->panel->y[n++] = NAN;
+        }
+        if (member) {
+            put_point(view, n++, point);
+            *from_pa = point->branch_from_pa;
+        }
+        gap = !member;
+        root = point->branch <= 0 ? point : root;
+    }
+    return n;
+}
+
+/* Colour, marker and legend of a branch. */
+static struct gb_plot_series branch_style(int branch, bool dynamic, double from_pa,
+                                          char *name, size_t size)
+{
+    if (branch > 0) {
+        char pressure[32];
+        gb_units_format_short(from_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
+        snprintf(name, size, "unloading from %s", pressure);
+        return (struct gb_plot_series){.ink = GB_PLOT_INK_SERIES + 1 +
+                                              (branch - 1) % COLOURS,
+                                       .marker = MARK_UNLOAD + (branch - 1) % MARKS,
+                                       .spacing = UNLOAD_SPACING};
+    }
+    const bool stage = dynamic || is_stage_of_cycle(branch);
+    g_strlcpy(name, stage ? gb_panel_plot_stage(branch) : "loading", size);
+    switch (branch) {
+    case GB_BRANCH_RELAX:
+        return (struct gb_plot_series){.ink = INK_RELAX, .marker = MARK_RELAX};
+    case GB_BRANCH_HOLD:
+        return (struct gb_plot_series){.ink = INK_HOLD, .marker = MARK_HOLD};
+    case GB_BRANCH_UNLOAD:
+    case GB_BRANCH_CONFINED:
+    case GB_BRANCH_EJECT:
+    case GB_BRANCH_EJECTED:
+        return (struct gb_plot_series){.ink =
+                                           GB_PLOT_INK_SERIES + GB_BRANCH_HOLD - branch,
+                                       .marker = MARK_HOLD + GB_BRANCH_HOLD - branch};
+    default:
+        return (struct gb_plot_series){.ink = GB_PLOT_INK_SERIES, .marker = MARK_LOAD};
+    }
+}
+
+/* "dense: loading" of a run that the user has named. */
+static void name_run(const struct gb_view_curve *view, char *name, size_t size)
+{
+    const char *given = view->session->run_label.name;
+    if (given[0] != '\0') {
+        char *whole = g_strdup_printf("%s: %s", given, name);
+        gb_paint_fit_copy(name, size, whole);
+        g_free(whole);
+    }
+}
+
+/* Draws a line and adds it to the legend. */
+static void view_curve_add(struct gb_view_curve *view,
+                           const struct gb_plot_series *series, const char *name)
+{
+    gb_plot_line(&view->panel->plot, series);
+    if (view->entries < GB_VIEW_CURVE_ENTRIES) {
+        struct gb_plot_entry *entry = &view->entry[view->entries++];
+        entry->ink = series->ink;
+        entry->marker = series->marker;
+        gb_paint_fit_copy(entry->name, sizeof entry->name, name);
+    }
+}
+
+static int kind_of(const struct gb_session *session)
+{
+    return gb_session_shown(session).params->kind;
+}
+
+/* A superseded quick curve is hidden together with the previous curves.  Against the step
+ * number, quick cells of quasi-static runs are hidden: their strain steps are longer. */
+static bool view_curve_quick_shown(const struct gb_view_curve *view)
+{
+    const struct gb_session *session = view->session;
+    return session->quick_cell.points > 0 &&
+           (!against_time(view) || gb_loading_kind_at(kind_of(session))->given_rate) &&
+           !(view->panel->hide_previous && gb_view_curve_quick_superseded(session));
+}
+
+/* Whether a curve of another run is shown in a colour: a run has one colour then. */
+static bool view_curve_several(const struct gb_view_curve *view)
+{
+    const struct gb_session *session = view->session;
+    bool several = session->runner != NULL && view_curve_quick_shown(view) &&
+                   !gb_view_curve_quick_superseded(session);
+    for (int k = 0; k < session->previous_count; k++) {
+        const struct gb_previous_curve *previous = &session->previous[k];
+        several |= previous->label.colour > 0 &&
+                   gb_previous_list_shown(previous, view->panel->hide_previous);
+    }
+    return several;
+}
+
+static void draw_branch(struct gb_view_curve *view, int branch)
+{
+    double from_pa = 0.0;
+    char name[GB_PLOT_NAME];
+    const size_t count = gather(view, branch, &from_pa);
+    if (count == 0) {
+        return;
+    }
+    struct gb_plot_series series =
+        branch_style(branch, is_dynamic(view->session), from_pa, name, sizeof name);
+    const int leg = gb_view_legs_number(&view->path, branch);
+    if (leg > 0) {
+        series = gb_view_legs_style(leg);
+        gb_view_legs_name(&view->path, leg, name, sizeof name);
+    }
+    if (view_curve_several(view)) {
+        series.ink = GB_PLOT_INK_SERIES;
+    }
+    series.x = view->panel->x;
+    series.y = view->panel->y;
+    series.count = count;
+    name_run(view, name, sizeof name);
+    view_curve_add(view, &series, name);
+}
+
+static int last_branch(const struct gb_view_curve *view)
+{
+    int last = 0;
+    for (size_t i = 0; i < view->session->points; i++) {
+        last = MAX(last, point_at(view, i)->branch);
+    }
+    return last;
+}
+
+/* Unloading branches are drawn first, loading on top.  The legend lists the last line
+ * first: stages are drawn in reverse order of time. */
+static void view_curve_branches(struct gb_view_curve *view)
+{
+    for (int branch = last_branch(view); branch > 0; branch--) {
+        draw_branch(view, branch);
+    }
+    for (int leg = view->path.count; leg > 1; leg--) {
+        draw_branch(view, GB_BRANCH_LEG - leg);
+    }
+    for (int branch = GB_BRANCH_LEAST; branch <= GB_BRANCH_HOLD; branch++) {
+        draw_branch(view, branch);
+    }
+    draw_branch(view, GB_BRANCH_LOAD);
+    draw_branch(view, GB_BRANCH_RELAX);
+}
+
+enum { MARK_MEASURED = 5, REPLICA_SPACING = 8 };
+
+/* Measurements have markers in the colour of texts; colours are those of runs. */
+enum { INK_MEASURED = GB_PLOT_INK_TEXT };
+
+/* x coordinates of a previous curve; NULL: nanoseconds and steps share no axis. */
+static const double *view_curve_previous_x(const struct gb_view_curve *view,
+                                           const struct gb_previous_curve *previous)
+{
+    if (!against_time(view)) {
+        return previous->density;
+    }
+    return previous->params.kind == kind_of(view->session) ? previous->elapsed : NULL;
+}
+
+/* view_curve.c: previous curves, quick cell, replicas, measured data, what-ifs. */
+static void view_curve_previous(struct gb_view_curve *view)
+{
+    const struct gb_session *session = view->session;
+    struct gb_panel_plot *panel = view->panel;
+    for (int k = 0; k < session->previous_count; k++) {
+        const struct gb_previous_curve *previous = &session->previous[k];
+        const double *x = view_curve_previous_x(view, previous);
+        if (x == NULL || !gb_previous_list_shown(previous, panel->hide_previous)) {
+            continue;
+        }
+        if (!gb_panel_plot_reserve(panel, previous->count)) {
+            return;
+        }
+        for (size_t i = 0; i < previous->count; i++) {
+            panel->y[i] = previous->pressure_pa[i] / view->unit_pa;
+        }
+        const struct gb_plot_series series = {
+            .x = x,
+            .y = panel->y,
+            .count = previous->count,
+            .ink = gb_views_curve_ink(previous->label.colour),
+            .marker = previous->label.marker};
+        view_curve_add(view, &series, gb_previous_list_name(previous));
+    }
+}
+
+/* ": mu 0.2" where these parameters differ from those of the run, else "". */
+static void write_difference(const struct gb_session *session,
+                             const struct gb_params *params, char *text, size_t size)
+{
+    char difference[GB_PARAMS_DIFF_TEXT];
+    text[0] = '\0';
+    if (session->runner != NULL &&
+        gb_params_diff_count(params, gb_runner_params(session->runner)) > 0) {
+        gb_params_diff_describe(params, gb_runner_params(session->runner), difference,
+                                sizeof difference);
+        snprintf(text, size, ": %s", difference);
+    }
+}
+
+/* In the next colour until the full cell is started, then dim. */
+static void view_curve_quick(struct gb_view_curve *view)
+{
+    const struct gb_session *session = view->session;
+    const struct gb_quick_cell *quick = &session->quick_cell;
+    struct gb_panel_plot *panel = view->panel;
+    char difference[GB_PARAMS_DIFF_TEXT + 2];
+    char name[sizeof difference + 48];
+    if (!view_curve_quick_shown(view) || !gb_panel_plot_reserve(panel, quick->points)) {
+        return;
+    }
+    for (size_t i = 0; i < quick->points; i++) {
+        const struct gb_point *point = gb_curve_at(gb_runner_curve(quick->runner), i);
+        panel->x[i] = view_curve_x(view, point);
+        panel->y[i] = point->p_pa / view->unit_pa;
+    }
+    const bool superseded = gb_view_curve_quick_superseded(session);
+    const struct gb_plot_series series = {
+        .x = panel->x,
+        .y = panel->y,
+        .count = quick->points,
+        .ink = superseded ? GB_PLOT_INK_DIM : gb_view_curve_quick_ink(session),
+        .marker = 'q'};
+    write_difference(session, &quick->full_params, difference, sizeof difference);
+    snprintf(name, sizeof name, "quick cell, N %lld%s",
+             (long long)gb_runner_params(quick->runner)->count, difference);
+    view_curve_add(view, &series, name);
+}
+
+static const struct gb_runset_view_group *
+view_curve_replicas(const struct gb_view_curve *view)
+{
+    return against_time(view) ? NULL : gb_session_replicas(view->session);
+}
+
+/* The mean of the replicas plus standard errors. */
+static void shift_mean(const struct gb_view_curve *view, double errors,
+                       double x[GB_RUNSET_VIEW_LEVELS], double y[GB_RUNSET_VIEW_LEVELS])
+{
+    const struct gb_runset_view_group *group = view_curve_replicas(view);
+    for (size_t k = 0; k < view->session->replica_band.runset.levels; k++) {
+        x[k] = group->mean[k] + (errors != 0.0 ? errors * group->error[k] : 0.0);
+        y[k] = view->session->replica_band.runset.level_pa[k] / view->unit_pa;
+    }
+}
+
+/* Mean of the replicas, in a band of two standard errors on both sides. */
+static void draw_replicas(struct gb_view_curve *view)
+{
+    const struct gb_runset_view_group *group = view_curve_replicas(view);
+    double low[GB_RUNSET_VIEW_LEVELS], x[GB_RUNSET_VIEW_LEVELS];
+    double y[GB_RUNSET_VIEW_LEVELS];
+    char difference[GB_PARAMS_DIFF_TEXT + 2];
+    char name[sizeof difference + 48];
+    if (group == NULL) {
+        return;
+    }
+    const size_t count = view->session->replica_band.runset.levels;
+    shift_mean(view, -GB_VIEW_BAND_ERRORS, low, y);
+    shift_mean(view, GB_VIEW_BAND_ERRORS, x, y);
+    gb_plot_band(&view->panel->plot,
+                 &(struct gb_plot_band){
+                     .x = {low, x}, .y = {y, y}, .count = count, .ink = GB_PLOT_INK_DIM});
+    shift_mean(view, 0.0, x, y);
+    const struct gb_plot_series series = {.x = x,
+                                          .y = y,
+                                          .count = count,
+                                          .ink = GB_VIEW_INK_REPLICAS,
+                                          .marker = 'R',
+                                          .spacing = REPLICA_SPACING};
+    write_difference(view->session, &view->session->replica_band.params, difference,
+                     sizeof difference);
+    snprintf(name, sizeof name, "mean of %zu %s%s%s", group->members,
+             group->members == 1 ? "cell" : "cells",
+             group->members == 1 ? "" : ", +- 2 errors", difference);
+    view_curve_add(view, &series, name);
+}
+
+static enum gb_plot_range_of across(const struct gb_view_curve *view)
+{
+    return against_time(view) ? GB_PLOT_RANGE_TIME : GB_PLOT_RANGE_DENSITY;
+}
+
+/* A marker and its standard errors as lines; NaN draws nothing. */
+static void draw_measured_point(struct gb_view_curve *view, size_t i)
+{
+    const struct gb_measured *data = view->session->measured;
+    const double x = data->density[i];
+    const double y = data->pressure_pa[i] / view->unit_pa;
+    const double dx = data->density_error[i];
+    const double dy = data->pressure_error_pa[i] / view->unit_pa;
+    const struct gb_plot_series across = {.x = (double[]){x - dx, x + dx},
+                                          .y = (double[]){y, y},
+                                          .count = 2,
+                                          .ink = INK_MEASURED};
+    const struct gb_plot_series up = {.x = (double[]){x, x},
+                                      .y = (double[]){y - dy, y + dy},
+                                      .count = 2,
+                                      .ink = INK_MEASURED};
+    const struct gb_plot_series marker = {.x = &x,
+                                          .y = &y,
+                                          .count = 1,
+                                          .ink = INK_MEASURED,
+                                          .marker = MARK_MEASURED,
+                                          .points = true};
+    gb_plot_line(&view->panel->plot, &across);
+    gb_plot_line(&view->panel->plot, &up);
+    gb_plot_line(&view->panel->plot, &marker);
+}
+
+static void view_curve_measured(struct gb_view_curve *view)
+{
+    const struct gb_measured *data = gb_session_measured(view->session);
+    struct gb_measured_misfit misfit;
+    char name[GB_PLOT_NAME] = "measured";
+    if (data == NULL || view->panel->view->abscissa != GB_VIEW_DENSITY) {
+        return;
+    }
+    for (size_t i = 0; i < data->count; i++) {
+        draw_measured_point(view, i);
+    }
+    gb_session_misfit(view->session, &misfit);
+    if (misfit.reached > 0) {
+        snprintf(name, sizeof name, "measured, RMS misfit %.2f %%", 100.0 * misfit.rms);
+    }
+    const struct gb_plot_series named = {
+        .ink = INK_MEASURED, .marker = MARK_MEASURED, .points = true};
+    view_curve_add(view, &named, name);
+}
+
+/* A letter where a what-if began. */
+static void view_curve_what_ifs(struct gb_view_curve *view)
+{
+    const struct gb_session *session = view->session;
+    for (int i = 0; i < session->whatifs; i++) {
+        const size_t at = session->whatif_at[i];
+        if (at == 0 || at > session->points) {
+            continue;
+        }
+        const struct gb_point *point =
+            gb_curve_at(gb_runner_curve(session->runner), at - 1);
+        const double x = view_curve_x(view, point);
+        const double y = point->p_pa / view->unit_pa;
+        gb_plot_line(&view->panel->plot,
+                     &(struct gb_plot_series){.x = &x,
+                                              .y = &y,
+                                              .count = 1,
+                                              .ink = GB_PLOT_INK_CURSOR,
+                                              .marker = 'f',
+                                              .points = true});
+    }
+}
 
 /* Largest ratio of pressures on a logarithmic axis: smaller pressures come from single
  * contacts. */
@@ -26,42 +459,6 @@ const char *gb_view_curve_unit_label(double unit_pa)
     return unit_pa > 1e6 ? "p, GPa" : "p, MPa";
 }
 
-void gb_view_curve_add(struct gb_view_curve *view, const struct gb_plot_series *series,
-                       const char *name)
-{
-    gb_plot_line(&view->panel->plot, series);
-    if (view->entries < GB_VIEW_CURVE_ENTRIES) {
-        struct gb_plot_entry *entry = &view->entry[view->entries++];
-        entry->ink = series->ink;
-        entry->marker = series->marker;
-        gb_text_fit_copy(entry->name, sizeof entry->name, name);
-    }
-}
-
-static bool against_time(const struct gb_view_curve *view)
-{
-    return view->panel->view->abscissa == GB_VIEW_ELAPSED;
-}
-
-static int kind_of(const struct gb_session *session)
-{
-    return gb_session_shown(session).params->kind;
-}
-
-double gb_view_curve_x(const struct gb_view_curve *view, const struct gb_point *point)
-{
-    return gb_panel_plot_cursor_x(view->panel, view->session, point);
-}
-
-const double *gb_view_curve_previous_x(const struct gb_view_curve *view,
-                                       const struct gb_previous_curve *previous)
-{
-    if (!against_time(view)) {
-        return previous->density;
-    }
-    return previous->params.kind == kind_of(view->session) ? previous->elapsed : NULL;
-}
-
 bool gb_view_curve_quick_superseded(const struct gb_session *session)
 {
     return session->runner != NULL && !gb_quick_cell_live(&session->quick_cell) &&
@@ -69,44 +466,10 @@ bool gb_view_curve_quick_superseded(const struct gb_session *session)
                                 gb_runner_params(session->runner)) == 0;
 }
 
-/* A superseded quick curve is hidden together with the previous curves.  Against the step
- * number, quick cells of quasi-static runs are hidden: their strain steps are longer. */
-bool gb_view_curve_quick_shown(const struct gb_view_curve *view)
-{
-    const struct gb_session *session = view->session;
-    return session->quick_cell.points > 0 &&
-           (!against_time(view) || gb_loading_kind_at(kind_of(session))->given_rate) &&
-           !(view->panel->hide_previous && gb_view_curve_quick_superseded(session));
-}
-
 int gb_view_curve_quick_ink(const struct gb_session *session)
 {
     const int colour = gb_previous_list_free_colour(session);
     return colour > 0 ? gb_views_curve_ink(colour) : GB_PLOT_INK_TEXT;
-}
-
-bool gb_view_curve_several(const struct gb_view_curve *view)
-{
-    const struct gb_session *session = view->session;
-    bool several = session->runner != NULL && gb_view_curve_quick_shown(view) &&
-                   !gb_view_curve_quick_superseded(session);
-    for (int k = 0; k < session->previous_count; k++) {
-        const struct gb_previous_curve *previous = &session->previous[k];
-        several |= previous->label.colour > 0 &&
-                   gb_previous_list_shown(previous, view->panel->hide_previous);
-    }
-    return several;
-}
-
-const struct gb_runset_view_group *
-gb_view_curve_replicas(const struct gb_view_curve *view)
-{
-    return against_time(view) ? NULL : gb_session_replicas(view->session);
-}
-
-static enum gb_plot_range_of across(const struct gb_view_curve *view)
-{
-    return against_time(view) ? GB_PLOT_RANGE_TIME : GB_PLOT_RANGE_DENSITY;
 }
 
 /* Range of the data. */
@@ -138,7 +501,7 @@ static void extend_by_curve(struct ends *ends, const struct gb_view_curve *view,
 {
     for (size_t i = 0; i < points; i++) {
         const struct gb_point *point = gb_curve_at(curve, i);
-        extend(ends, gb_view_curve_x(view, point), point->p_pa);
+        extend(ends, view_curve_x(view, point), point->p_pa);
     }
 }
 
@@ -152,13 +515,13 @@ static void extend_by_overlays(struct ends *ends, const struct gb_view_curve *vi
     for (int k = 0; k < session->previous_count; k++) {
         const struct gb_previous_curve *previous = &session->previous[k];
         const double *x = gb_previous_list_shown(previous, view->panel->hide_previous)
-                              ? gb_view_curve_previous_x(view, previous)
+                              ? view_curve_previous_x(view, previous)
                               : NULL;
         for (size_t i = 0; x != NULL && i < previous->count; i++) {
             extend(ends, x[i], previous->pressure_pa[i]);
         }
     }
-    const struct gb_runset_view_group *band = gb_view_curve_replicas(view);
+    const struct gb_runset_view_group *band = view_curve_replicas(view);
     for (size_t k = 0; band != NULL && k < session->replica_band.runset.levels; k++) {
         extend(ends, band->mean[k], session->replica_band.runset.level_pa[k]);
     }
@@ -167,13 +530,15 @@ static void extend_by_overlays(struct ends *ends, const struct gb_view_curve *vi
 static struct ends find_ends(const struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
-    struct ends ends = {
-        &view->panel->ranges,  across(view), {HUGE_VAL, -HUGE_VAL},
-        {HUGE_VAL, -HUGE_VAL}, HUGE_VAL};
+    struct ends ends = {&view->panel->ranges,
+                        across(view),
+                        {HUGE_VAL, -HUGE_VAL},
+                        {HUGE_VAL, -HUGE_VAL},
+                        HUGE_VAL};
     if (session->runner != NULL) {
         extend_by_curve(&ends, view, gb_runner_curve(session->runner), session->points);
     }
-    if (gb_view_curve_quick_shown(view)) {
+    if (view_curve_quick_shown(view)) {
         extend_by_curve(&ends, view, gb_runner_curve(session->quick_cell.runner),
                         session->quick_cell.points);
     }
@@ -239,7 +604,7 @@ static void draw_cursor(const struct gb_view_curve *view)
         }
     } else if (panel->cursor_on && panel->cursor < shown.points) {
         const struct gb_point *point = gb_curve_at(shown.curve, panel->cursor);
-        gb_plot_cursor(&panel->plot, gb_view_curve_x(view, point),
+        gb_plot_cursor(&panel->plot, view_curve_x(view, point),
                        point->p_pa / view->unit_pa);
     }
 }
@@ -249,13 +614,13 @@ void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *se
     struct gb_view_curve view = {
         .panel = panel, .session = session, .path = gb_view_legs_path(session)};
     draw_axes(&view);
-    gb_view_overlays_previous(&view);
-    gb_view_overlays_quick(&view);
-    gb_view_overlays_replicas(&view);
-    gb_view_overlays_measured(&view);
+    view_curve_previous(&view);
+    view_curve_quick(&view);
+    draw_replicas(&view);
+    view_curve_measured(&view);
     if (session->points > 0 && gb_panel_plot_reserve(panel, 2 * session->points + 1)) {
-        gb_view_branches_draw(&view);
-        gb_view_overlays_what_ifs(&view);
+        view_curve_branches(&view);
+        view_curve_what_ifs(&view);
     } else if (session->quick_cell.points == 0) {
         draw_waiting(&view);
         return;

@@ -3,9 +3,9 @@
 #include <stdio.h>
 
 #include "base/units.h"
-#include "tui/session/overlay/pressure_rows.h"
-#include "tui/session/overlay/previous_list.h"
-#include "tui/term/text_fit.h"
+#include "tui/session/pressure_rows.h"
+#include "tui/session/previous.h"
+#include "tui/term/paint.h"
 #include "tui/view/view_curve.h"
 
 /* Density of each curve minus that of the run, at equal pressure, with bands of twice the
@@ -52,7 +52,7 @@ static void add_entry(struct view *view, int ink, int marker, const char *name)
         struct gb_plot_entry *entry = &view->entry[view->entries++];
         entry->ink = ink;
         entry->marker = marker;
-        gb_text_fit_copy(entry->name, sizeof entry->name, name);
+        gb_paint_fit_copy(entry->name, sizeof entry->name, name);
     }
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "tui/term/text_fit.h"
+#include "tui/term/paint.h"
 #include "tui/view/views.h"
 
 enum { EQUATIONS = 4, SAMPLES = 96, ENTRIES = EQUATIONS + 2 };
@@ -42,7 +42,7 @@ static void add(struct view *view, const struct line *line, const char *name)
     struct gb_plot_entry *entry = &view->entry[view->entries];
     entry->ink = GB_PLOT_INK_SERIES + view->entries % GB_PLOT_COLOURS;
     entry->marker = MARK_LOAD + view->entries;
-    gb_text_fit_copy(entry->name, sizeof entry->name, name);
+    gb_paint_fit_copy(entry->name, sizeof entry->name, name);
     view->line[view->entries++] = *line;
 }
 
@@ -197,7 +197,7 @@ void gb_view_fit_draw(struct gb_panel_plot *panel, const struct gb_session *sess
     struct view view = {.panel = panel, .cache = &panel->fits};
     const bool ended = shown.state >= GB_RUN_DONE;
     if (!gb_panel_plot_reserve(panel, MAX(shown.points, SAMPLES)) ||
-        !gb_compaction_cache_update(&panel->fits, shown.curve, shown.points,
+        !gb_results_fits_update(&panel->fits, shown.curve, shown.points,
                                     ended ? GB_COMPACTION_PROFILE
                                           : GB_COMPACTION_LINEAR)) {
         const struct gb_compaction_cache *cache = &panel->fits;

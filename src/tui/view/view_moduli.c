@@ -57,7 +57,7 @@ static void add_line(struct drawing *drawing, const char *format, ...)
 static void add_progress(struct drawing *drawing)
 {
     const struct gb_session *session = drawing->session;
-    if (!gb_moduli_job_measures(&session->moduli, &session->child)) {
+    if (!gb_job_moduli_measures(&session->moduli, &session->child)) {
         return;
     }
     if (session->moduli.waits_for != NULL) {

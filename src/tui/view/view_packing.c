@@ -102,9 +102,9 @@ static void write_legend(struct gb_panel_plot *panel, const struct gb_view_sampl
 {
     struct gb_plot *plot = &panel->plot;
     const struct gb_packing_range range =
-        gb_packing_look_range(sample, panel->look.colour);
+        gb_sphere_shading_range(sample, panel->look.colour);
     char text[96];
-    snprintf(text, sizeof text, "%s %.3g ", gb_packing_look_name(panel->look.colour),
+    snprintf(text, sizeof text, "%s %.3g ", gb_sphere_shading_name(panel->look.colour),
              range.low);
     const int from = 3, at = from + (int)strlen(text);
     gb_plot_text(plot, 0, from, GB_PLOT_INK_TEXT, text);
@@ -131,9 +131,9 @@ static void write_caption(struct gb_panel_plot *panel, const struct gb_view_samp
     if (caption == CAPTION_BELOW) {
         if (panel->look.colour != GB_PACKING_COLOUR_DEPTH) {
             const struct gb_packing_range range =
-                gb_packing_look_range(sample, panel->look.colour);
+                gb_sphere_shading_range(sample, panel->look.colour);
             snprintf(legend, sizeof legend, ", %s %.3g to %s%.3g",
-                     gb_packing_look_name(panel->look.colour), range.low,
+                     gb_sphere_shading_name(panel->look.colour), range.low,
                      range.beyond ? ">" : "", range.high);
         }
         snprintf(text, sizeof text, "%s, %s, z upwards%s", share, size, legend);
@@ -162,16 +162,16 @@ void gb_view_packing_navigate(struct gb_panel_plot *panel, enum gb_action action
 {
     switch (action) {
     case GB_ACTION_LEFT:
-        gb_packing_look_rotate(&panel->look, step_deg, 0.0);
+        gb_sphere_shading_rotate(&panel->look, step_deg, 0.0);
         break;
     case GB_ACTION_RIGHT:
-        gb_packing_look_rotate(&panel->look, -step_deg, 0.0);
+        gb_sphere_shading_rotate(&panel->look, -step_deg, 0.0);
         break;
     case GB_ACTION_UP:
-        gb_packing_look_rotate(&panel->look, 0.0, step_deg);
+        gb_sphere_shading_rotate(&panel->look, 0.0, step_deg);
         break;
     case GB_ACTION_DOWN:
-        gb_packing_look_rotate(&panel->look, 0.0, -step_deg);
+        gb_sphere_shading_rotate(&panel->look, 0.0, -step_deg);
         break;
     case GB_ACTION_HOME:
     case GB_ACTION_BACK:

@@ -34,7 +34,7 @@ static const struct gb_plot_view views[] = {
         .help = "distribution of the coordination number",
         .title = "Distribution of the coordination number",
         .hint = "share of particles with 0, 1, 2 ... contacts (r < d)",
-        .draw = gb_view_histogram_draw,
+        .draw = gb_view_structure_histogram,
     },
     {
         .key = "3",
@@ -43,7 +43,7 @@ static const struct gb_plot_view views[] = {
         .hint = "mean force of contacts by the angle to z; a circle when all directions "
                 "carry the same load",
         .need = GB_VIEW_NEEDS_CONTACTS,
-        .draw = gb_view_rose_draw,
+        .draw = gb_view_structure_rose,
     },
     {
         .key = "4",
@@ -62,7 +62,7 @@ static const struct gb_plot_view views[] = {
         .hint = "density of particles at a distance over the mean density; 1 without "
                 "order",
         .need = GB_VIEW_NEEDS_SAMPLE,
-        .draw = gb_view_distances_draw,
+        .draw = gb_view_structure_distances,
     },
     {
         .key = "6",
@@ -72,7 +72,7 @@ static const struct gb_plot_view views[] = {
                 "cursor",
         .need = GB_VIEW_NEEDS_POINTS,
         .abscissa = GB_VIEW_DENSITY,
-        .draw = gb_view_ratio_draw,
+        .draw = gb_view_legs_ratio,
     },
     {
         .key = "7",
@@ -122,7 +122,7 @@ static const struct gb_plot_view views[] = {
                 "Left and Right, Enter applies",
         .need = GB_VIEW_NEEDS_STABILITY,
         .abscissa = GB_VIEW_SETTINGS,
-        .draw = gb_view_stability_draw,
+        .draw = gb_view_chart_stability,
         .applies = has_cell,
         .excluded = "stability needs a periodic cell",
     },
@@ -267,14 +267,14 @@ const char *gb_views_missing(const struct gb_plot_view *view,
         return shown.sample == NULL || !shown.sample->valid ? "no packing yet" : NULL;
     case GB_VIEW_NEEDS_CHART:
         return session->chart != NULL ? NULL
-               : gb_chart_job_runs(&session->child)
+               : gb_job_chart_runs(&session->child)
                    ? "measuring; the points follow the reference\n"
                      "progress among the events, X stops"
                    : "no chart yet: X measures this scene,\n"
                      "e loads a chart.csv of greenbody chart";
     case GB_VIEW_NEEDS_STABILITY:
         return session->stability != NULL ? NULL
-               : gb_chart_job_runs(&session->child)
+               : gb_job_chart_runs(&session->child)
                    ? "measuring; progress among the events,\nX stops"
                    : "no stability yet: X measures the methods\nof this scene";
     }

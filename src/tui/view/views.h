@@ -27,7 +27,7 @@ enum gb_view_abscissa {
 enum { GB_VIEW_TITLE = 43, GB_VIEW_HINT = 120 };
 
 enum gb_view_option {
-    GB_VIEW_PRESSURE_AXIS = 1, /* y is the pressure: L switches its axis */
+    GB_VIEW_PRESSURE_AXIS = 1,   /* y is the pressure: L switches its axis */
     GB_VIEW_PRESSURE_ACROSS = 4, /* x is the pressure, the same */
     GB_VIEW_INSET = 2            /* also drawn below the curve, if there is room */
 };
@@ -76,18 +76,19 @@ const char *gb_views_missing(const struct gb_plot_view *view,
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* Distribution of the coordination number. */
-void gb_view_histogram_draw(struct gb_panel_plot *panel,
-                            const struct gb_session *session);
+void gb_view_structure_histogram(struct gb_panel_plot *panel,
+                                 const struct gb_session *session);
 
 /* Mean normal force against the angle to z, as a closed line around the origin. */
-void gb_view_rose_draw(struct gb_panel_plot *panel, const struct gb_session *session);
-
-/* Radial distribution function of the packing. */
-void gb_view_distances_draw(struct gb_panel_plot *panel,
+void gb_view_structure_rose(struct gb_panel_plot *panel,
                             const struct gb_session *session);
 
+/* Radial distribution function of the packing. */
+void gb_view_structure_distances(struct gb_panel_plot *panel,
+                                 const struct gb_session *session);
+
 /* Lateral-to-axial stress ratio against relative density, P1 Fig. 13. */
-void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+void gb_view_legs_ratio(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* Laws of the edited parameters, and dim those of the run, into panel->target: normal
  * force of two particles (P1 Fig. 1), bridge strength (P1 Fig. 2). */
@@ -100,9 +101,6 @@ void gb_view_fit_draw(struct gb_panel_plot *panel, const struct gb_session *sess
 /* Density of each curve minus that of the run, at equal pressure. */
 void gb_view_difference_draw(struct gb_panel_plot *panel,
                              const struct gb_session *session);
-
-/* Law of Hertz or Storakers, for scenes with it; called by gb_view_law_force. */
-void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* The packing along y: shaded spheres, darker with depth; discs in 2D. */
 void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *session);
@@ -125,7 +123,7 @@ void gb_view_moduli_draw(struct gb_panel_plot *panel, const struct gb_session *s
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* Longest stable step of each method over the step that it takes, against pressure. */
-void gb_view_stability_draw(struct gb_panel_plot *panel,
-                            const struct gb_session *session);
+void gb_view_chart_stability(struct gb_panel_plot *panel,
+                             const struct gb_session *session);
 
 #endif

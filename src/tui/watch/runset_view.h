@@ -1,6 +1,7 @@
 #ifndef GB_TUI_WATCH_RUNSET_VIEW_H
 #define GB_TUI_WATCH_RUNSET_VIEW_H
 
+#include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -67,5 +68,8 @@ size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure
 /* The group with these values of the two varied keys; NULL: none yet. */
 const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *runset,
                                                      size_t first, size_t second);
+
+/* Whether a directory, or its folder `runs`, contains runs and is no run itself. */
+bool gb_runset_view_any(const char *directory);
 
 #endif

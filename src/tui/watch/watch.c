@@ -1,18 +1,17 @@
 #include "tui/watch/watch.h"
 
 #include <glib.h>
+#include <math.h>
 #include <ncurses.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
+#include "base/units.h"
 #include "tui/app/keys.h"
-#include "tui/term/input/reread_loop.h"
-#include "tui/watch/watch_views.h"
-
-/* Seconds between two readings of the files. */
-static const double reread_s = 1.0;
-/* Initial pressure of the map: P1 compares powders there. */
-static const double default_pa = 100e6;
+#include "tui/panel/panels.h"
+#include "tui/term/paint.h"
+#include "tui/watch/reread_loop.h"
 
 enum { MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10, LAST_ASCII = 126 };
 
@@ -33,12 +32,284 @@ static void draw_header(const struct gb_watch *watch, const struct gb_paint *pai
     g_free(name);
 }
 
+static void watch_fit_draw(struct gb_watch *watch, const struct gb_paint *paint)
+{
+    struct gb_rect rect = paint->rect;
+    rect.col += 1;
+    rect.cols -= 2;
+    const struct gb_paint inside = gb_paint_at(paint->term, rect);
+    int row = 1;
+    for (char **line = watch->runset.fit; line != NULL && *line != NULL; line++) {
+        const int left = rect.rows - row;
+        const int rows = left > 0 ? gb_paint_wrap_rows(&inside, left, *line) : 0;
+        gb_paint_wrap(&inside, row, rows, GB_STYLE_PLAIN, *line);
+        row += rows;
+    }
+}
+
+enum { STATE_COL = 2, ERROR_COL = 22 };
+
+static void watch_runs_draw(struct gb_watch *watch, const struct gb_paint *paint)
+{
+    const int page = paint->rect.rows - 1;
+    const int last = (int)watch->runset.runs - page;
+    watch->top = MAX(MIN(watch->top, last), 0);
+    for (int i = 0; i < page && watch->top + i < (int)watch->runset.runs; i++) {
+        const struct gb_runset_view_run *run = &watch->runset.run[watch->top + i];
+        enum gb_style style = GB_STYLE_PLAIN;
+        const char *word = gb_panel_state_word(run->state, run->error, &style);
+        gb_paint_text(paint, 1 + i, STATE_COL, style, word);
+        gb_paint_format(paint, 1 + i, STATE_COL + 12, GB_STYLE_PLAIN, "%4.0f %%",
+                        floor(100.0 * run->progress));
+        const int col = gb_paint_text(paint, 1 + i, ERROR_COL, GB_STYLE_PLAIN, run->name);
+        gb_paint_text(paint, 1 + i, col + 2, GB_STYLE_WARN, run->error);
+    }
+}
+
+static void write_pressure(const struct gb_watch *watch, char *text, size_t size)
+{
+    gb_units_format_short(watch->runset.level_pa[watch->level], GB_DIM_PRESSURE, 3, text,
+                          size);
+}
+
+/* Columns of a cell: with two digits of the error, with one, without it. */
+enum { NAME_COLS = 14, CELL_COLS = 20, CELL_COLS_ERROR = 15, CELL_COLS_MIN = 7 };
+
+struct range {
+    double min, max;
+};
+
+static struct range range_of(const struct gb_watch *watch)
+{
+    struct range range = {HUGE_VAL, -HUGE_VAL};
+    for (size_t g = 0; g < watch->runset.groups; g++) {
+        const double mean = watch->runset.group[g].mean[watch->level];
+        range.min = fmin(range.min, mean); /* fmin and fmax ignore NaN */
+        range.max = fmax(range.max, mean);
+    }
+    return range;
+}
+
+/* "▓▓ 0.5120 +-0.0030": darker is denser; "▓0.512 +-0.003" and "▓0.512" in narrow columns. */
+static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint, int row,
+                      int col, int cols, const struct gb_runset_view_group *group,
+                      struct range range)
+{
+    static const char *const shades[] = {"\u2591", "\u2592", "\u2593", "\u2588"};
+    char text[64] = "   ...";
+    const double mean = group != NULL ? group->mean[watch->level] : (double)NAN;
+    if (isfinite(mean)) {
+        const double error = group->error[watch->level];
+        const double part =
+            range.max > range.min ? (mean - range.min) / (range.max - range.min) : 1.0;
+        const char *shade = shades[(int)fmin(3.0, floor(4.0 * part))];
+        const bool wide = cols >= CELL_COLS;
+        char number[GB_NUMBER_ERROR_MAX];
+        if (error > 0.0 && cols >= CELL_COLS_ERROR) {
+            gb_number_error(mean, error, wide ? 2 : 1, " +-", number);
+        } else {
+            snprintf(number, sizeof number, "%.*f", wide ? 4 : 3, mean);
+        }
+        snprintf(text, sizeof text, "%s%s%s%.40s", shade, wide ? shade : "",
+                 wide ? " " : "", number);
+    }
+    gb_paint_cell(paint, row, col, cols, GB_STYLE_PLAIN, text);
+}
+
+static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *paint)
+{
+    const struct gb_runset_view *runset = &watch->runset;
+    const struct gb_runset_view_key *across = &runset->key[0], *down = &runset->key[1];
+    const struct range range = range_of(watch);
+    const int room = (paint->rect.cols - NAME_COLS - 1) / (int)across->count;
+    const int cols = room >= CELL_COLS         ? CELL_COLS
+                     : room >= CELL_COLS_ERROR ? CELL_COLS_ERROR
+                                               : MAX(room, CELL_COLS_MIN);
+    char text[128];
+    snprintf(text, sizeof text, "%s.%s \u2192", across->field->group, across->field->key);
+    gb_paint_text(paint, 3, NAME_COLS + 1, GB_STYLE_DIM, text);
+    snprintf(text, sizeof text, "%s", down->field->key);
+    gb_paint_cell(paint, 4, 1, NAME_COLS - 1, GB_STYLE_DIM, text);
+    for (size_t i = 0; i < across->count; i++) {
+        gb_paint_cell(paint, 4, NAME_COLS + 1 + (int)i * cols, cols - 1, GB_STYLE_BOLD,
+                      across->values[i]);
+    }
+    for (size_t j = 0; j < down->count; j++) {
+        const int row = 5 + (int)j;
+        gb_paint_cell(paint, row, 1, NAME_COLS - 1, GB_STYLE_BOLD, down->values[j]);
+        for (size_t i = 0; i < across->count; i++) {
+            draw_cell(watch, paint, row, NAME_COLS + 1 + (int)i * cols, cols,
+                      gb_runset_view_at(runset, i, j), range);
+        }
+    }
+}
+
+/* Label of a group with its number of cells. */
+static void watch_views_group_name(const struct gb_runset_view_group *group, char *name,
+                                   size_t size)
+{
+    char cells[40];
+    snprintf(cells, sizeof cells, "%s%zu %s", *group->label != '\0' ? ", " : "",
+             group->members, group->members == 1 ? "cell" : "cells");
+    gb_paint_fit_copy(name, size - strlen(cells), group->label);
+    strcat(name, cells);
+}
+
+/* One row per group, where one key varies or more than two. */
+static void draw_list(const struct gb_watch *watch, const struct gb_paint *paint)
+{
+    const struct range range = range_of(watch);
+    for (size_t g = 0; g < watch->runset.groups; g++) {
+        const struct gb_runset_view_group *group = &watch->runset.group[g];
+        char name[80];
+        watch_views_group_name(group, name, sizeof name);
+        draw_cell(watch, paint, 3 + (int)g, 1, CELL_COLS, group, range);
+        gb_paint_text(paint, 3 + (int)g, CELL_COLS + 2, GB_STYLE_PLAIN, name);
+    }
+}
+
+static void watch_map_draw(struct gb_watch *watch, const struct gb_paint *paint)
+{
+    char pressure[32];
+    write_pressure(watch, pressure, sizeof pressure);
+    gb_paint_format(paint, 1, 1, GB_STYLE_PLAIN,
+                    "relative density at %s, +- standard error", pressure);
+    if (watch->runset.keys == GB_RUNSET_VIEW_VARIED) {
+        draw_matrix(watch, paint);
+    } else {
+        draw_list(watch, paint);
+    }
+}
+
+static void find_ends(const struct gb_watch *watch, double x[2], double y[2])
+{
+    const struct gb_runset_view *runset = &watch->runset;
+    x[0] = y[0] = HUGE_VAL;
+    x[1] = y[1] = -HUGE_VAL;
+    for (size_t g = 0; g < runset->groups; g++) {
+        for (size_t k = 0; k < runset->levels; k++) {
+            const double error = runset->group[g].error[k];
+            const double mean = runset->group[g].mean[k];
+            const double wide = isfinite(error) ? error : 0.0;
+            if (isfinite(mean)) {
+                x[0] = fmin(x[0], mean - wide);
+                x[1] = fmax(x[1], mean + wide);
+                y[0] = fmin(y[0], runset->level_pa[k] / 1e6);
+                y[1] = fmax(y[1], runset->level_pa[k] / 1e6);
+            }
+        }
+    }
+}
+
+enum { ENTRIES = 64 };
+
+/* The mean plus `off` standard errors. */
+static void draw_curve(struct gb_watch *watch, const struct gb_runset_view_group *group,
+                       double off, int ink, int marker)
+{
+    double x[GB_RUNSET_VIEW_LEVELS];
+    double y[GB_RUNSET_VIEW_LEVELS];
+    for (size_t k = 0; k < watch->runset.levels; k++) {
+        x[k] = group->mean[k] + (off != 0.0 ? off * group->error[k] : 0.0);
+        y[k] = watch->runset.level_pa[k] / 1e6;
+    }
+    gb_plot_line(&watch->plot, &(struct gb_plot_series){.x = x,
+                                                        .y = y,
+                                                        .count = watch->runset.levels,
+                                                        .ink = ink,
+                                                        .marker = marker,
+                                                        .spacing = 8});
+}
+
+/* Draws all groups and the legend, with `foot` rows for it below the plot; false when the
+ * legend is incomplete or covers a line.  *needed: rows of a complete foot. */
+static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
+                        const double x[2], const double y[2], int foot, int *needed)
+{
+    const struct gb_runset_view *runset = &watch->runset;
+    struct gb_plot_entry entry[ENTRIES];
+    int entries = 0;
+    if (!gb_plot_resize(&watch->plot, paint->rect.rows - 1, paint->rect.cols - 2,
+                        (enum gb_plot_glyphs)watch->glyphs, NULL)) {
+        return true;
+    }
+    watch->plot.foot = foot;
+    gb_plot_axes(&watch->plot, x, y, watch->linear ? GB_PLOT_LINEAR : GB_PLOT_LOG,
+                 "relative density", "p, MPa");
+    for (size_t g = 0; g < runset->groups; g++) { /* bands first */
+        draw_curve(watch, &runset->group[g], -1.0, GB_PLOT_INK_DIM, 0);
+        draw_curve(watch, &runset->group[g], 1.0, GB_PLOT_INK_DIM, 0);
+    }
+    for (size_t g = 0; g < runset->groups; g++) {
+        const int ink = GB_PLOT_INK_SERIES + (int)(g % GB_PLOT_COLOURS);
+        const int marker = 1 + (int)(g % 7);
+        draw_curve(watch, &runset->group[g], 0.0, ink, marker);
+        if (entries < ENTRIES) {
+            entry[entries] = (struct gb_plot_entry){.ink = ink, .marker = marker};
+            watch_views_group_name(&runset->group[g], entry[entries].name, GB_PLOT_NAME);
+            entries++;
+        }
+    }
+    *needed = gb_plot_legend_foot(&watch->plot, entry, entries);
+    return gb_plot_legend(&watch->plot, entry, entries);
+}
+
+/* Drawing functions, each in the file of its name. */
+static void watch_curves_draw(struct gb_watch *watch, const struct gb_paint *paint)
+{
+    double x[2], y[2];
+    int foot = 0;
+    find_ends(watch, x, y);
+    if (!(x[1] > x[0])) {
+        gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has reached 1 MPa yet");
+        return;
+    }
+    if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no free area inside */
+        (void)draw_groups(watch, paint, x, y, foot, &foot);
+    }
+    gb_paint_plot(paint, 1, 1, &watch->plot);
+}
+
+/* One row per view of the screen of many runs: digit, title and footer follow from it.  A new
+ * view is a file watch_NAME.c, a row in watch.c and a line in meson.build.  Views of
+ * calibrations are the last rows. */
+struct watch_view {
+    const char *title; /* without the digit */
+    const char *hint;  /* footer: keys of the view; "" without */
+    enum { GB_WATCH_VIEW_ALWAYS, GB_WATCH_VIEW_CALIBRATION } shown;
+    void (*draw)(struct gb_watch *watch, const struct gb_paint *paint);
+};
+
+static const struct watch_view views[] = {
+    {"Pressure against relative density: mean and standard error",
+     "L log or linear  b glyphs", GB_WATCH_VIEW_ALWAYS, watch_curves_draw},
+    {"Relative density over the varied parameters", "Left and Right pressure",
+     GB_WATCH_VIEW_ALWAYS, watch_map_draw},
+    {"Runs", "Up and Down scroll", GB_WATCH_VIEW_ALWAYS, watch_runs_draw},
+    {"Fit", "", GB_WATCH_VIEW_CALIBRATION, watch_fit_draw},
+};
+
+/* Number of views that a directory has, and the row of one. */
+static int watch_views_count(const struct gb_watch *watch)
+{
+    int count = 0;
+    for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
+        count += views[i].shown == GB_WATCH_VIEW_ALWAYS || watch->runset.fit != NULL;
+    }
+    return count;
+}
+
+static const struct watch_view *watch_views_at(int index)
+{
+    return &views[index];
+}
+
 /* Common keys, and those of the view. */
 static void write_hint(const struct gb_watch *watch, char *text, size_t size)
 {
-    const char *hint = gb_watch_views_at(watch->view)->hint;
-    snprintf(text, size, "1-%d views  v next  %s%sq quit", gb_watch_views_count(watch),
-             hint, *hint != '\0' ? "  " : "");
+    const char *hint = watch_views_at(watch->view)->hint;
+    snprintf(text, size, "1-%d views  v next  %s%sq quit", watch_views_count(watch), hint,
+             *hint != '\0' ? "  " : "");
 }
 
 static void draw_footer(const struct gb_watch *watch, const struct gb_paint *paint)
@@ -53,7 +324,7 @@ static void draw_footer(const struct gb_watch *watch, const struct gb_paint *pai
 static void draw_view(struct gb_watch *watch, const struct gb_paint *paint)
 {
     char title[120];
-    const struct gb_watch_view *view = gb_watch_views_at(watch->view);
+    const struct watch_view *view = watch_views_at(watch->view);
     snprintf(title, sizeof title, "%d %s", watch->view + 1, view->title);
     gb_paint_title(paint, title, GB_PAINT_FOCUSED);
     view->draw(watch, paint);
@@ -81,6 +352,18 @@ static void draw(struct gb_watch *watch, struct gb_term *term)
     gb_term_flush(term);
 }
 
+/* The view shown first: the fit of a calibration, otherwise the curves. */
+static int watch_views_first(const struct gb_watch *watch)
+{
+    const int last = watch_views_count(watch) - 1;
+    return views[last].shown == GB_WATCH_VIEW_CALIBRATION ? last : 0;
+}
+
+/* Seconds between two readings of the files. */
+static const double reread_s = 1.0;
+/* Initial pressure of the map: P1 compares powders there. */
+static const double default_pa = 100e6;
+
 static void move_level(struct gb_watch *watch, int by)
 {
     const int to = (int)watch->level + by;
@@ -89,7 +372,7 @@ static void move_level(struct gb_watch *watch, int by)
 
 static void show_view(struct gb_watch *watch, int view)
 {
-    if (view < gb_watch_views_count(watch)) {
+    if (view < watch_views_count(watch)) {
         watch->view = view;
     }
 }
@@ -99,14 +382,14 @@ enum { CTRL_L = 'L' & 31 };
 static void next_view(struct gb_watch *watch, struct gb_term *term)
 {
     (void)term;
-    show_view(watch, (watch->view + 1) % gb_watch_views_count(watch));
+    show_view(watch, (watch->view + 1) % watch_views_count(watch));
 }
 
 static void previous_view(struct gb_watch *watch, struct gb_term *term)
 {
     (void)term;
-    show_view(watch, (watch->view + gb_watch_views_count(watch) - 1) %
-                         gb_watch_views_count(watch));
+    show_view(watch,
+              (watch->view + watch_views_count(watch) - 1) % watch_views_count(watch));
 }
 
 static void toggle_log(struct gb_watch *watch, struct gb_term *term)
@@ -134,16 +417,6 @@ static void leave(struct gb_watch *watch, struct gb_term *term)
     watch->leave = true;
 }
 
-/* Keys other than digits of the views and navigation. */
-static const struct {
-    int code[4];
-    void (*act)(struct gb_watch *watch, struct gb_term *term);
-} keys[] = {
-    {{'v', '\t', 'n'}, next_view}, {{'V', KEY_BTAB, 'N'}, previous_view},
-    {{'L'}, toggle_log},           {{'b'}, next_glyphs},
-    {{CTRL_L}, repaint},           {{'q', KEY_F(10)}, leave},
-};
-
 static void navigate(struct gb_watch *watch, enum gb_action action)
 {
     switch (action) {
@@ -169,6 +442,16 @@ static void navigate(struct gb_watch *watch, enum gb_action action)
         break;
     }
 }
+
+/* Keys other than digits of the views and navigation. */
+static const struct {
+    int code[4];
+    void (*act)(struct gb_watch *watch, struct gb_term *term);
+} keys[] = {
+    {{'v', '\t', 'n'}, next_view}, {{'V', KEY_BTAB, 'N'}, previous_view},
+    {{'L'}, toggle_log},           {{'b'}, next_glyphs},
+    {{CTRL_L}, repaint},           {{'q', KEY_F(10)}, leave},
+};
 
 static void act(struct gb_watch *watch, struct gb_term *term, int code)
 {
@@ -253,7 +536,7 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     gb_plot_init(&watch.plot);
     watch.glyphs = first_glyphs(term, settings);
     watch.level = gb_runset_view_level(&watch.runset, default_pa);
-    watch.view = gb_watch_views_first(&watch);
+    watch.view = watch_views_first(&watch);
     const struct gb_reread_loop loop = {reread_s,  on_key,  on_wheel,
                                         on_reread, on_draw, &watch};
     const int status = gb_reread_loop_run(&loop, term);

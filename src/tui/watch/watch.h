@@ -12,7 +12,7 @@ struct gb_watch {
     struct gb_runset_view runset;
     struct gb_error error; /* error of the last reading */
     bool leave;
-    int view;     /* row of watch_views.c */
+    int view;     /* row of watch.c */
     size_t level; /* pressure of the map */
     bool linear;  /* linear pressure axis */
     int top;      /* first run listed */

@@ -1,0 +1,169 @@
+#ifndef GB_TUI_APP_DIALOG_H
+#define GB_TUI_APP_DIALOG_H
+
+#include "tui/app/curve_list.h"
+#include "tui/app/help_list.h"
+#include "tui/app/keys.h"
+#include "tui/app/preset_browser.h"
+#include "tui/legs/leg_editor.h"
+#include "tui/panel/list_box.h"
+#include "tui/panel/param_finder.h"
+#include "tui/panel/prompt.h"
+#include "tui/term/paint.h"
+#include "tui/term/pixels.h"
+
+struct gb_dialog;
+struct gb_session;
+
+enum gb_dialog_result {
+    GB_DIALOG_OPEN,     /* incomplete */
+    GB_DIALOG_ACCEPTED, /* Enter, or y: the answer is in gb_dialog_answer */
+    GB_DIALOG_CANCELLED /* Esc, or n: closed */
+};
+
+/* How one kind of dialogs is drawn and takes keys (dialog.c). */
+struct gb_dialog_form {
+    void (*draw)(struct gb_dialog *dialog, const struct gb_paint *screen);
+    /* Takes an event as input; false: the keys below apply. */
+    bool (*edit)(struct gb_dialog *dialog, const struct gb_term_event *event);
+    enum gb_dialog_result (*key)(struct gb_dialog *dialog, int code);
+};
+
+/* One row for each dialog (dialogs.c). */
+struct gb_dialog_type {
+    const struct gb_dialog_form *form;
+    const char *title;
+    const char *label;    /* of the input line */
+    const char *yes, *no; /* answers of a question */
+    bool completes_path;  /* Tab completes the line as a path */
+    int scope;            /* bit of the keys of the table that act in it; 0: none */
+    void (*opened_by)(struct gb_app *app,
+                      const struct gb_key *key); /* its key closes the dialog, too */
+    char *(*copied)(struct gb_app *app); /* what y copies, g_free; NULL: nothing */
+    /* Takes a key before the form does; NULL: none. */
+    bool (*press)(struct gb_app *app, const struct gb_term_event *event);
+    void (*accept)(struct gb_app *app);
+    void (*decline)(struct gb_app *app); /* NULL: nothing besides closing */
+};
+
+/* What a picture of the packing shows, in rows of choices, its width in print and a file; as
+ * it opens it is the picture of `greenbody snapshot` without options. */
+enum {
+    GB_PICTURE_FORM_SHOW,
+    GB_PICTURE_FORM_COLOUR,
+    GB_PICTURE_FORM_CUT,
+    GB_PICTURE_FORM_VIEW,
+    GB_PICTURE_FORM_CHOICES,
+    GB_PICTURE_FORM_WIDTH = GB_PICTURE_FORM_CHOICES,
+    GB_PICTURE_FORM_FILE,
+    GB_PICTURE_FORM_ROWS
+};
+
+struct gb_picture_form {
+    int row;
+    int choice[GB_PICTURE_FORM_CHOICES];
+    struct gb_prompt width; /* as 8cm; empty: pixels of a screen */
+    struct gb_prompt file;
+};
+
+enum gb_dialog_note { GB_DIALOG_NOTE_ERROR, GB_DIALOG_NOTE_WARNING };
+
+/* The dialog over the panes, at most one at a time: help, list of presets, input line,
+ * shell command, question. */
+struct gb_dialog {
+    const struct gb_dialog_type *type; /* NULL: none is open */
+    int top, focus, page; /* first line, focused line and lines per page of a list */
+    struct gb_preset_browser browser; /* of presets or materials */
+    struct gb_leg_editor legs;
+    struct gb_picture_form picture;
+    struct gb_curve_list curves;
+    struct gb_param_finder finder;
+    struct gb_help_list help;
+    struct gb_session *session;  /* of the tables of densities, results and curves */
+    struct gb_png_pixels pixels; /* shown in pixels; owned */
+    struct gb_rect field;        /* its cells on the screen */
+    bool hide_previous;          /* in that table */
+    char *text;                  /* shell command shown, or file asked about; owned */
+    char note[480];              /* question, or why the last answer was refused */
+    const char *other; /* a third answer of a question, its key first; NULL: none */
+    enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
+    struct gb_prompt prompt;
+};
+
+/* text: initial content of the line, the question or the command; may be NULL. */
+void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                    const char *text);
+/* The list of presets or materials, compared with the parameters `current`. */
+void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_preset_browser_kind *kind,
+                            const struct gb_params *current);
+/* The legs of the loading path of these parameters. */
+void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                         const struct gb_params *params, enum gb_plot_glyphs glyphs);
+/* The search of a parameter; values are those of `params`. */
+void gb_dialog_show_finder(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           const struct gb_params *params);
+/* The table of densities, drawn anew with each frame. */
+void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                              struct gb_session *session, bool hide_previous);
+/* The form of a picture, which goes to `path` unless another file is typed. */
+void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const char *path);
+/* The results of the session, the newest first. */
+void gb_dialog_show_results(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            struct gb_session *session);
+/* A picture, which the dialog takes over, and the path below it. */
+void gb_dialog_show_pixels(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           const struct gb_png_pixels *picture, const char *path);
+/* The list of curves with their densities at the pressure `typed_pa`, or the usual one. */
+void gb_dialog_show_curves(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           struct gb_session *session, double typed_pa);
+void gb_dialog_close(struct gb_dialog *dialog);
+
+void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
+
+/* Whether keys of the table act in it: not while something is typed. */
+bool gb_dialog_takes_keys(const struct gb_dialog *dialog);
+
+enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
+                                       const struct gb_term_event *event);
+
+/* Selected preset or material, or the text of the line. */
+const char *gb_dialog_answer(struct gb_dialog *dialog);
+
+void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,
+                        const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* The kinds of dialogs. */
+extern const struct gb_dialog_form gb_dialog_forms_help; /* the key table */
+
+extern const struct gb_dialog_form gb_dialog_forms_densities; /* the table */
+
+extern const struct gb_dialog_form gb_dialog_forms_curves; /* run and previous ones */
+
+extern const struct gb_dialog_form gb_dialog_forms_presets; /* list with a preview */
+
+extern const struct gb_dialog_form gb_dialog_forms_finder; /* search of a parameter */
+
+extern const struct gb_dialog_form gb_dialog_forms_legs; /* legs of a loading path */
+
+extern const struct gb_dialog_form gb_dialog_forms_prompt; /* input line */
+
+extern const struct gb_dialog_form gb_dialog_forms_picture; /* rows of choices */
+
+extern const struct gb_dialog_form gb_dialog_forms_command; /* shell command */
+
+extern const struct gb_dialog_form gb_dialog_forms_question; /* y or n */
+
+extern const struct gb_dialog_form gb_dialog_forms_cards; /* dialog.c: cards */
+
+extern const struct gb_dialog_form gb_dialog_forms_pixels; /* pixels */
+
+/* Options of the command: at most GB_PICTURE_FORM_WORDS, NULL behind the last; valid until
+ * the form changes. */
+enum { GB_PICTURE_FORM_WORDS = GB_PICTURE_FORM_CHOICES + 2 };
+
+void gb_dialog_words(struct gb_picture_form *form,
+                     const char *words[GB_PICTURE_FORM_WORDS + 1]);
+
+#endif

@@ -1,0 +1,84 @@
+#ifndef GB_TUI_SESSION_PREVIOUS_H
+#define GB_TUI_SESSION_PREVIOUS_H
+
+#include "greenbody/curve.h"
+#include "greenbody/params.h"
+#include "runner/runner.h"
+#include "tui/session/params_diff.h"
+
+/* The previous curves of a session, oldest first: which are kept, shown and coloured. */
+
+struct gb_session;
+
+/* The cell that a curve comes from. */
+enum gb_session_cell { GB_SESSION_FULL_CELL, GB_SESSION_QUICK_CELL };
+
+enum { GB_SESSION_PREVIOUS = 6 };
+
+enum { GB_CURVE_NAME = 40, GB_CURVE_COLOURS = 5 /* besides that of the run */ };
+
+/* How a curve is called and drawn; a run keeps it when it is shown again. */
+struct gb_curve_label {
+    char marker;              /* 'a', 'b', ...: marker in the plot; 0: none yet */
+    int colour;               /* 1 to GB_CURVE_COLOURS; 0: dim */
+    bool pinned;              /* stays among the previous curves */
+    bool hidden;              /* not drawn and in no table */
+    char name[GB_CURVE_NAME]; /* given by the user; "": its differences are its name */
+};
+
+/* Label of the run (-1) or of a previous curve. */
+struct gb_curve_label *gb_previous_list_label(struct gb_session *session, int index);
+
+/* Curve of a replaced run or quick cell, as the plot shows it. */
+struct gb_previous_curve {
+    struct gb_params params;
+    struct gb_curve_label label;
+    bool quick;                           /* of a quick cell */
+    char difference[GB_PARAMS_DIFF_TEXT]; /* its different values */
+    size_t count;
+    double *density, *pressure_pa; /* NaN between branches */
+    bool *loading;                 /* no unloading branch */
+    double *elapsed;               /* gb_previous_curve_elapsed of the points */
+};
+
+/* Its name, or else its differences. */
+const char *gb_previous_list_name(const struct gb_previous_curve *previous);
+
+/* Whether a curve is drawn; hide: those that are not pinned are hidden. */
+bool gb_previous_list_shown(const struct gb_previous_curve *previous, bool hide);
+/* The first colour from 1 up that no shown curve has; 0: none. */
+int gb_previous_list_free_colour(const struct gb_session *session);
+
+/* Adds the curve of a run or quick cell, unless it has fewer than two points or memory is
+ * short.  The oldest one that is not pinned makes room.  A pinned curve of the same quick
+ * cell is replaced. */
+void gb_previous_list_keep(struct gb_session *session, const struct gb_params *params,
+                           const struct gb_runner *runner, enum gb_session_cell cell);
+/* Updates the differences of the curves to these parameters. */
+void gb_previous_list_describe(struct gb_session *session,
+                               const struct gb_params *params);
+/* The run or quick cell of these parameters is on display and no longer a previous one;
+ * pinned curves of quick cells stay. */
+void gb_previous_list_forget(struct gb_session *session, const struct gb_params *params,
+                             bool quick);
+void gb_previous_list_delete(struct gb_session *session, int index);
+
+/* Pins or unpins the run (-1) or a previous curve.  False: GB_PREVIOUS_PINNED are pinned
+ * already, so that the last run always has a place. */
+enum { GB_PREVIOUS_PINNED = GB_SESSION_PREVIOUS - 1 };
+bool gb_previous_list_pin(struct gb_session *session, int index, bool pinned);
+/* A curve shown again takes a colour that is free. */
+void gb_previous_list_hide(struct gb_session *session, int index, bool hidden);
+
+/* Copies the first `count` points; false: out of memory. */
+bool gb_previous_curve_copy(struct gb_previous_curve *previous,
+                            const struct gb_params *params, const struct gb_curve *curve,
+                            size_t count);
+
+void gb_previous_curve_finish(struct gb_previous_curve *previous);
+
+/* Time coordinate of a point: simulated ns of a dynamic run, number of the recorded step
+ * of a quasi-static one. */
+double gb_previous_curve_elapsed(int kind, const struct gb_point *point);
+
+#endif
