@@ -307,7 +307,8 @@ static void complete_keys_list(const struct candidates *to)
 
 static void add_figures(const struct candidates *to)
 {
-    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+    const struct gb_figures_row *row;
+    for (size_t i = 0; (row = gb_figures_at(i)) != NULL; i++) {
         add_candidate(to, row->name, row->doc);
     }
 }

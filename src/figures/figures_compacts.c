@@ -489,7 +489,7 @@ static void draw_test(struct gb_series *series, const struct strength_tables *ta
 {
     const struct gb_table *table = tables->table[k];
     const int style = (int)k * GB_STRENGTH_TESTS + test;
-    const char *name = gb_strength_options_tests[test].name;
+    const char *name = gb_strength_tests[test].name;
     char *label = label_of(tables, words, k, name);
     double *x = gb_series_column(series, "%s_%d", strength_names[along], style + 1);
     double *y = gb_series_column(series, "%s_%d_MPa", name, (int)k + 1);
@@ -682,7 +682,7 @@ static bool draw_curves_of_test(struct gb_series *series, const struct chosen *c
 {
     double cell[CELLS];
     struct gb_average_curve curves[CELLS];
-    const char *test = gb_strength_options_tests[style].name;
+    const char *test = gb_strength_tests[style].name;
     const size_t count =
         distinct_values(chosen->table, chosen->column[CELL], chosen->column[chosen->by],
                         chosen->value, cell, CELLS);

@@ -613,8 +613,8 @@ static void jackknife(struct group_fit *fit, struct gb_average_curve *curves,
         struct gb_error ignored = {0};
         const struct gb_average_curve removed = curves[i];
         curves[i] = curves[members - 1]; /* the order does not affect a mean */
-        const bool good = members > 1 && gb_relaxation_curves_fit(&without, curves,
-                                                                  members - 1, &ignored);
+        const bool good =
+            members > 1 && gb_mean_curves_decay(&without, curves, members - 1, &ignored);
         curves[i] = removed;
         fall[i] = good ? gb_fit_decay_fall(&without) : (double)NAN;
         efold[i] = good ? gb_fit_decay_efold(&without) : (double)NAN;
@@ -636,11 +636,10 @@ static bool fit_group(struct group_fit *fit, const struct gb_runset *set, size_t
                       struct gb_error *cause, struct gb_error *err)
 {
     struct gb_mean_curves curves;
-    if (!gb_relaxation_curves_read(&curves, set, group, err)) {
+    if (!gb_mean_curves_relaxation(&curves, set, group, err)) {
         return false;
     }
-    fit->fitted =
-        gb_relaxation_curves_fit(&fit->decay, curves.curve, curves.count, cause);
+    fit->fitted = gb_mean_curves_decay(&fit->decay, curves.curve, curves.count, cause);
     if (fit->fitted) {
         jackknife(fit, curves.curve, curves.count);
     } else {
@@ -858,7 +857,7 @@ static bool draw_group(struct gb_series *series, const struct gb_runset *set,
     size_t count = 0;
     struct gb_mean_curves curves;
     struct gb_fit_decay fit;
-    if (!gb_relaxation_curves_read(&curves, set, group, err)) {
+    if (!gb_mean_curves_relaxation(&curves, set, group, err)) {
         gb_mean_curves_finish(&curves);
         return false;
     }

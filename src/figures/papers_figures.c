@@ -8,8 +8,8 @@
 #include "figures/plotting.h"
 #include "io/preset.h"
 #include "many/key_difference.h"
-#include "study/papers/papers_comparisons.h"
 #include "study/papers/papers.h"
+#include "study/papers/papers_comparisons.h"
 
 /* Keys that change how well a scene is computed and how much of it. */
 static const char *const accepted[] = {"particles.count",     "structure.base",
@@ -30,9 +30,8 @@ static int find_scene(const struct gb_papers_comparison *comparison,
     struct gb_params params;
     int found = -1;
     if (comparison->experiment[0] == NULL ||
-        !gb_papers_experiments_params(
-            &gb_papers_experiments_table()[gb_papers_experiments_index(
-                comparison->experiment[0])],
+        !gb_papers_plan_params(
+            &gb_papers_plan_table()[gb_papers_plan_index(comparison->experiment[0])],
             GB_PAPERS_SIZES, comparison->point, &params, NULL)) {
         return -1;
     }

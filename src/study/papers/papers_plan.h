@@ -19,7 +19,7 @@ enum { GB_PAPERS_CHANGES = 4, GB_PAPERS_EXPERIMENTS_MOST = 32 };
 /* One size of an experiment. */
 struct gb_papers_extent {
     int cells; /* at each point; 0: the experiment is left out */
-    const char *change[GB_PAPERS_CHANGES]; /* "group.key=value", NULL behind the last */
+    const char *change[GB_PAPERS_CHANGES]; /* "group.key=value", NULL after the last */
 };
 
 struct gb_papers_experiment {

@@ -73,7 +73,7 @@ gb_job_replicas_group(const struct gb_replica_band *band)
                                                               : NULL;
 }
 
-static const char name[] = "moduli";
+static const char moduli_name[] = "moduli";
 
 static void drop_table(struct gb_moduli_job *job)
 {
@@ -95,14 +95,14 @@ static bool start_command(struct gb_moduli_job *job, const char *directory,
                           struct gb_child_command *child, struct gb_error *err)
 {
     char *path = g_build_filename(directory, GB_MODULI_STATES_FILE, NULL);
-    const char *const words[] = {name, directory, "--out", directory, NULL};
+    const char *const words[] = {moduli_name, directory, "--out", directory, NULL};
     char *state = g_build_filename(directory, "state.h5", NULL);
     const bool stored = g_file_test(state, G_FILE_TEST_EXISTS);
     g_free(state);
     job->waits_for = NULL;
     const bool good =
         (stored || gb_error_set(err, GB_ERR_INPUT, "the run has no stored state yet")) &&
-        gb_job_start(child, name, path, GB_CHILD_COMMAND_QUIET, words, err);
+        gb_job_start(child, moduli_name, path, GB_CHILD_COMMAND_QUIET, words, err);
     g_free(path);
     return good;
 }
@@ -113,7 +113,7 @@ bool gb_job_moduli_start(struct gb_moduli_job *job, struct gb_runner *runner, bo
     if (runner == NULL || gb_runner_directory(runner) == NULL) {
         return gb_error_set(err, GB_ERR_INPUT, "no stored run yet: r starts one");
     }
-    if (!gb_loading_kind_check_cell(gb_runner_params(runner), name, err)) {
+    if (!gb_loading_kind_check_cell(gb_runner_params(runner), moduli_name, err)) {
         return false;
     }
     if (child->pid != 0) {
@@ -134,7 +134,8 @@ bool gb_job_moduli_start(struct gb_moduli_job *job, struct gb_runner *runner, bo
 bool gb_job_moduli_runs(const struct gb_moduli_job *job,
                         const struct gb_child_command *child)
 {
-    return job->waits_for != NULL || (child->pid != 0 && strcmp(child->name, name) == 0);
+    return job->waits_for != NULL ||
+           (child->pid != 0 && strcmp(child->name, moduli_name) == 0);
 }
 
 bool gb_job_moduli_measures(const struct gb_moduli_job *job,
@@ -209,17 +210,17 @@ bool gb_job_moduli_refresh(struct gb_moduli_job *job, struct gb_runner *runner,
     return other || (waited && job->waits_for == NULL);
 }
 
-enum { P, DENSITY, MEASURED, USED, MARGIN, STABLE, IN_USE, COLUMNS };
+enum { P, DENSITY, MEASURED, USED, MARGIN, STABLE, IN_USE, STABILITY_COLUMNS };
 
-static const char *const names[COLUMNS] = {"p_MPa",  "density", "measured", "used",
-                                           "margin", "stable",  "in_use"};
+static const char *const stability_columns[STABILITY_COLUMNS] = {
+    "p_MPa", "density", "measured", "used", "margin", "stable", "in_use"};
 
 static bool stability_csv_fill(struct gb_stability_csv *out, const struct gb_table *table,
                                struct gb_error *err)
 {
-    const double *column[COLUMNS];
-    for (int k = 0; k < COLUMNS; k++) {
-        column[k] = gb_table_column(table, names[k], err);
+    const double *column[STABILITY_COLUMNS];
+    for (int k = 0; k < STABILITY_COLUMNS; k++) {
+        column[k] = gb_table_column(table, stability_columns[k], err);
         if (column[k] == NULL) {
             return false;
         }
@@ -288,8 +289,8 @@ size_t gb_job_stability_weakest(const struct gb_stability_csv *table)
 }
 
 bool gb_job_stability_apply(const struct gb_stability_csv *table, size_t i,
-                                struct gb_params *params, char *text, size_t size,
-                                struct gb_error *err)
+                            struct gb_params *params, char *text, size_t size,
+                            struct gb_error *err)
 {
     const struct gb_stability_csv_row *row = &table->row[i];
     if (gb_loading_kind_of(params)->follows_time) {
@@ -417,7 +418,7 @@ static bool fill(struct gb_chart_csv *chart, const struct gb_table *table,
 }
 
 void gb_job_chart_csv_apply(const struct gb_chart_csv *chart, size_t i,
-                                struct gb_params *params)
+                            struct gb_params *params)
 {
     struct gb_chart_setting setting = chart->setting[i];
     if (setting.count == chart->setting[0].count) {
@@ -427,7 +428,7 @@ void gb_job_chart_csv_apply(const struct gb_chart_csv *chart, size_t i,
 }
 
 bool gb_job_chart_csv_read(struct gb_chart_csv **out, const char *path,
-                               struct gb_error *err)
+                           struct gb_error *err)
 {
     struct gb_table *table = NULL;
     if (!gb_table_read(&table, path, "relaxer", err)) {
