@@ -98,6 +98,37 @@ static void test_inserted(void)
     gb_world_destroy(loaded);
 }
 
+/* A copy in double precision inserts no pairs: it builds its lists from the positions, and has
+ * the forces, contacts and histories of the run. */
+static void test_double_copy(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=6000", "numerics.precision=single", NULL);
+    const struct gb_params fine =
+        scene_params("particles.count=6000", "numerics.precision=double", NULL);
+    const struct gb_model model = scene_model(&params), fine_model = scene_model(&fine);
+    struct gb_world *world = scene_world(&model), *copy = NULL;
+    struct gb_record record = {0};
+    struct gb_error err = {0};
+    scene_press(world, 150, 10, 2.0);
+    move_until_inserted(world);
+    g_assert_true(gb_world_record(world, &record, &err));
+    record.loading = true;
+    g_assert_true(gb_world_create(&copy, &fine_model, gb_world_position(world), &err));
+    g_assert_true(gb_world_record(copy, &record, &err));
+    g_assert_cmpint(gb_world_pairs(copy)->inserted_count, ==, 0);
+    g_assert_cmpint(gb_world_tally(copy)->contacts, ==, gb_world_tally(world)->contacts);
+    scene_evaluate(copy);
+    const struct gb_bodies w = gb_world_bodies(world), c = gb_world_bodies(copy);
+    for (int64_t i = 0; i < 3 * w.count; i++) {
+        g_assert_cmpfloat_with_epsilon(w.force[i], c.force[i], 1e-6);
+        g_assert_cmpfloat_with_epsilon(w.torque[i], c.torque[i], 1e-6);
+    }
+    gb_record_finish(&record);
+    gb_world_destroy(world);
+    gb_world_destroy(copy);
+}
+
 /* As many pairs as a block has free slots can be inserted, and no more. */
 static void test_full(void)
 {
@@ -173,6 +204,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/list_patch/inserted", test_inserted);
+    g_test_add_func("/list_patch/double-copy", test_double_copy);
     g_test_add_func("/list_patch/full", test_full);
     g_test_add_func("/list_patch/memory", test_memory);
     return g_test_run();

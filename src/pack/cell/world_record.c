@@ -95,38 +95,38 @@ static bool record_vectors(struct gb_world *world, struct gb_record *record,
 /* Pairs inserted into the lists since their build. */
 static const char inserted_name[] = "world/amended";
 
-static bool load_inserted(struct gb_engine *engine, struct gb_record *record,
-                          struct gb_error *err)
-{
-    int64_t rows = 0;
-    return gb_record_rows(record, inserted_name, GB_RECORD_INT32, 4, &rows, err) &&
-           gb_list_patch_load(engine, gb_record_find(record, inserted_name)->data, rows,
-                              err);
-}
-
-/* The lists as they were, without histories. */
-static bool load_lists(struct gb_world *world, struct gb_record *record,
+/* The lists as they were, without histories.  *as_saved: false where that cannot be: lists of a
+ * run in single precision with inserted pairs, for a copy in double precision, which inserts
+ * none.  The first evaluation builds them from the positions then. */
+static bool load_lists(struct gb_world *world, struct gb_record *record, bool *as_saved,
                        struct gb_error *err)
 {
     struct gb_engine *engine = &world->engine;
     struct gb_particles *particles = &engine->particles;
+    int64_t inserted = 0;
+    if (!gb_record_rows(record, inserted_name, GB_RECORD_INT32, 4, &inserted, err)) {
+        return false;
+    }
+    *as_saved = inserted == 0 || gb_engine_is_f32(engine);
     engine->list.built = particles->cell;
     if (!record_build(world, record, err) ||
         !record_vectors(world, record, "world/built_at", "d", particles->position, err)) {
         return false;
     }
     const struct gb_cell built = engine->list.built;
-    if (!gb_record_checks_edges(&built, "world/built_edge", err) ||
-        !gb_record_checks_inside(&built, particles->position, particles->count, 0.0,
-                                 "world/built_at", err) ||
-        !gb_engine_lists_build(engine, &built, err)) {
+    const bool fine =
+        gb_record_checks_edges(&built, "world/built_edge", err) &&
+        gb_record_checks_inside(&built, particles->position, particles->count, 0.0,
+                                "world/built_at", err);
+    if (!fine || !*as_saved || !gb_engine_lists_build(engine, &built, err)) {
         gb_neighbour_list_clear(&engine->list);
         gb_engine_state_drop_lists(&engine->state);
-        return false;
+        return fine && !*as_saved;
     }
     const struct gb_contact_history none = {0};
     gb_contact_history_read(&none, engine);
-    return load_inserted(engine, record, err);
+    return gb_list_patch_load(engine, gb_record_find(record, inserted_name)->data,
+                              inserted, err);
 }
 
 /* True if the history and the lists have the same pairs in contact. */
@@ -229,7 +229,7 @@ static bool load_forces(struct gb_world *world, const struct gb_record *record,
 
 /* Cell and positions; then an evaluation without motion, from the lists as they were. */
 static bool load_positions(struct gb_world *world, struct gb_record *record,
-                           struct gb_error *err)
+                           bool has_lists, struct gb_error *err)
 {
     struct gb_particles *particles = &world->engine.particles;
     const size_t bytes = 3 * (size_t)particles->count * sizeof *particles->rotation;
@@ -245,7 +245,8 @@ static bool load_positions(struct gb_world *world, struct gb_record *record,
     if (!gb_world_evaluate(world, err)) {
         return false;
     }
-    return world->rebuilds == rebuilds || /* the saved state had been evaluated */
+    return !has_lists ||
+           world->rebuilds == rebuilds || /* the saved state had been evaluated */
            gb_error_set(err, GB_ERR_INPUT, "world/built_at: does not fit the positions");
 }
 
@@ -253,8 +254,10 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
 {
     struct gb_engine *engine = &world->engine;
     struct gb_particles *particles = &engine->particles;
+    bool has_lists = false;
     gb_engine_state_replace(&engine->state);
-    if (!load_lists(world, record, err) || !load_positions(world, record, err) ||
+    if (!load_lists(world, record, &has_lists, err) ||
+        !load_positions(world, record, has_lists, err) ||
         !load_contacts(world, record, err) || !load_forces(world, record, err) ||
         !record_vectors(world, record, "world/force", "E d^2", particles->force, err) ||
         !record_vectors(world, record, "world/torque", "E d^3", particles->torque, err)) {
