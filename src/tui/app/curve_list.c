@@ -11,13 +11,8 @@
 #include "tui/session/previous.h"
 #include "tui/view/views.h"
 
-enum {
-    SIGN_COLS = 2,
-    MARK_COLS = 2,
-    CELL_COLS = 12,
-    VALUE_COLS = 9,
-    FOOT_ROWS = 2 /* what the signs mean */
-};
+enum { SIGNS, MARK, NAME, CELL, DENSITY, DIFFERENCE, COLUMNS };
+enum { FOOT_ROWS = 2 }; /* what the signs mean */
 
 static const char foot[] =
     "* pinned: stays, also with m; - hidden. ~ within, ! beyond two standard deviations. "
@@ -41,19 +36,20 @@ static int index_of(const struct gb_session *session, int line)
     return session->previous_count - 1 - line + (session->runner != NULL);
 }
 
-void gb_curve_list_go(struct gb_curve_list *list, const struct gb_session *session,
-                      int by)
+void gb_curve_list_navigate(struct gb_curve_list *list, const struct gb_session *session,
+                            enum gb_action action)
 {
-    list->focus = CLAMP(list->focus + by, 0, MAX(count_lines(session) - 1, 0));
+    gb_list_box_set_count(&list->box, count_lines(session));
+    (void)gb_list_box_navigate(&list->box, action);
 }
 
 int gb_curve_list_focused(struct gb_curve_list *list, const struct gb_session *session)
 {
-    gb_curve_list_go(list, session, 0);
-    if (count_lines(session) == 0) {
+    gb_list_box_set_count(&list->box, count_lines(session));
+    if (list->box.count == 0) {
         return GB_CURVE_LIST_NONE;
     }
-    const int index = index_of(session, list->focus);
+    const int index = index_of(session, list->box.focus);
     return index < session->previous_count ? index : GB_CURVE_LIST_RUN;
 }
 
@@ -109,82 +105,76 @@ static void write_cell(const struct gb_pressure_row *row, char *text, size_t siz
              (long long)(quick ? small.count : row->params->count));
 }
 
-static void write_right(const struct gb_paint *paint, int row, int end,
-                        enum gb_style style, const char *text)
-{
-    gb_paint_text(paint, row, end - gb_paint_width(text), style, text);
-}
+/* What a row is written from. */
+struct source {
+    const struct gb_curve_list *list;
+    const struct gb_session *session;
+};
 
-static void draw_values(const struct gb_paint *paint, int row,
-                        const struct gb_session *session, const struct line *line,
-                        double pressure_pa, enum gb_style style)
+static void write_values(const struct source *source, const struct line *curve,
+                         struct gb_list_box_line *line)
 {
+    const struct gb_session *session = source->session;
+    const double pressure_pa = source->list->pressure_pa;
     char text[24];
-    const int cols = paint->rect.cols;
     const struct gb_pressure_value value =
-        gb_pressure_rows_at(session, &line->row, pressure_pa);
-    write_cell(&line->row, text, sizeof text);
-    write_right(paint, row, cols - 2 * VALUE_COLS - 1, style, text);
+        gb_pressure_rows_at(session, &curve->row, pressure_pa);
+    write_cell(&curve->row, text, sizeof text);
+    line->cell[CELL] = g_strdup(text);
     gb_pressure_rows_write(value, text, sizeof text);
-    write_right(paint, row, cols - VALUE_COLS - 1, style, text);
-    if (line->row.kind == GB_PRESSURE_ROW_PREVIOUS && session->runner != NULL) {
+    line->cell[DENSITY] = g_strdup(text);
+    if (curve->row.kind == GB_PRESSURE_ROW_PREVIOUS && session->runner != NULL) {
         const struct gb_pressure_row run = gb_pressure_rows_run(session);
-        gb_pressure_rows_write_difference(&line->row, value, &run,
+        gb_pressure_rows_write_difference(&curve->row, value, &run,
                                           gb_pressure_rows_at(session, &run, pressure_pa),
                                           text, sizeof text);
-        write_right(paint, row, cols, style, text);
+        line->cell[DIFFERENCE] = g_strdup(text);
     }
 }
 
-static void draw_line(const struct gb_curve_list *list, const struct gb_session *session,
-                      const struct gb_paint *paint, int row, int number)
+static void write_curve(void *data, int item, struct gb_list_box_line *line)
 {
-    const struct line line = line_of(session, number);
-    const bool focused = number == list->focus;
-    const enum gb_style style = focused             ? GB_STYLE_SELECTED
-                                : line.label.hidden ? GB_STYLE_DIM
-                                                    : GB_STYLE_PLAIN;
-    const char mark[2] = {line.label.marker != '\0' ? line.label.marker : '>', '\0'};
-    const int from = SIGN_COLS + MARK_COLS;
-    const int name_cols = paint->rect.cols - from - CELL_COLS - 2 * VALUE_COLS;
-    gb_paint_cell(paint, row, 0, paint->rect.cols, style, "");
-    gb_paint_text(paint, row, 0, style, line.label.pinned ? "*" : "");
-    gb_paint_text(paint, row, 1, style, line.label.hidden ? "-" : "");
-    gb_paint_text(paint, row, SIGN_COLS,
-                  line.row.kind == GB_PRESSURE_ROW_RUN ? GB_STYLE_SERIES : line.ink,
-                  line.row.kind == GB_PRESSURE_ROW_RUN ? ">" : mark);
-    gb_paint_cell(paint, row, from, name_cols, style, line.name);
-    draw_values(paint, row, session, &line, list->pressure_pa, style);
-    if (focused && list->naming) {
-        gb_prompt_draw(&list->prompt, paint, row, from, name_cols);
-    }
-}
-
-static void draw_head(const struct gb_curve_list *list, const struct gb_paint *paint)
-{
-    char pressure[24];
-    const int cols = paint->rect.cols;
-    gb_units_format_short(list->pressure_pa, GB_DIM_PRESSURE, 4, pressure,
-                          sizeof pressure);
-    gb_paint_text(paint, 0, SIGN_COLS + MARK_COLS, GB_STYLE_BOLD, "curve");
-    write_right(paint, 0, cols - 2 * VALUE_COLS - 1, GB_STYLE_BOLD, "cell");
-    write_right(paint, 0, cols - VALUE_COLS - 1, GB_STYLE_BOLD, pressure);
-    write_right(paint, 0, cols - 1, GB_STYLE_BOLD, "- run");
+    const struct source *source = data;
+    const struct line curve = line_of(source->session, item);
+    const bool run = curve.row.kind == GB_PRESSURE_ROW_RUN;
+    const char marker = curve.label.marker;
+    line->style = curve.label.hidden ? GB_STYLE_DIM : GB_STYLE_PLAIN;
+    line->cell[SIGNS] = g_strdup_printf("%s%s", curve.label.pinned ? "*" : " ",
+                                        curve.label.hidden ? "-" : "");
+    line->cell[MARK] = g_strdup_printf("%c", run || marker == '\0' ? '>' : marker);
+    line->ink[MARK] = run ? GB_STYLE_SERIES : (int)curve.ink;
+    line->cell[NAME] = g_strdup(curve.name);
+    write_values(source, &curve, line);
 }
 
 void gb_curve_list_draw(struct gb_curve_list *list, const struct gb_session *session,
                         const struct gb_paint *paint)
 {
-    const int count = count_lines(session);
-    list->page = MAX(1, paint->rect.rows - FOOT_ROWS - 1);
-    gb_curve_list_go(list, session, 0);
-    list->top = CLAMP(list->top, MAX(0, list->focus - list->page + 1), list->focus);
-    draw_head(list, paint);
-    for (int i = 0; i < list->page && list->top + i < count; i++) {
-        draw_line(list, session, paint, 1 + i, list->top + i);
-    }
-    if (count == 0) {
-        gb_paint_text(paint, 1, 0, GB_STYLE_DIM, "no curve yet: r starts a run");
+    char pressure[24];
+    struct source source = {list, session};
+    gb_units_format_short(list->pressure_pa, GB_DIM_PRESSURE, 4, pressure,
+                          sizeof pressure);
+    const struct gb_list_box_look look = {
+        .columns = COLUMNS,
+        .column = {[SIGNS] = {.cols = 2, .tight = true},
+                   [MARK] = {.cols = 2},
+                   [NAME] = {.title = "curve", .cols = 0},
+                   [CELL] = {.title = "cell", .cols = 12, .right = true},
+                   [DENSITY] = {.title = pressure, .cols = 9, .right = true},
+                   [DIFFERENCE] = {.title = "- run ", .cols = 9, .right = true}},
+        .head = GB_STYLE_BOLD,
+        .titled = true,
+        .empty = "no curve yet: r starts a run",
+        .empty_style = GB_STYLE_DIM,
+        .write = write_curve};
+    struct gb_rect rect = paint->rect;
+    rect.rows -= FOOT_ROWS;
+    const struct gb_paint rows = gb_paint_at(paint->term, rect);
+    gb_list_box_set_count(&list->box, count_lines(session));
+    gb_list_box_draw(&list->box, &rows, &look, &source);
+    if (list->naming) {
+        const struct gb_rect name = gb_list_box_cell(&list->box, &rows, &look, NAME);
+        gb_prompt_draw(&list->prompt, &rows, name.row, name.col, name.cols);
     }
     gb_paint_wrap(paint, paint->rect.rows - FOOT_ROWS, FOOT_ROWS, GB_STYLE_DIM, foot);
 }

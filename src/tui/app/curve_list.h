@@ -1,14 +1,14 @@
 #ifndef GB_TUI_APP_CURVE_LIST_H
 #define GB_TUI_APP_CURVE_LIST_H
 
-#include "tui/panel/prompt.h"
+#include "tui/panel/list_box.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
 
 /* The run and the previous curves, a line each, with their density at one pressure. */
 struct gb_curve_list {
-    int focus, top, page; /* line in focus, first one shown, lines per page */
-    bool naming;          /* the name in focus is typed */
+    struct gb_list_box box;
+    bool naming; /* the name in focus is typed */
     struct gb_prompt prompt;
     double pressure_pa; /* of the densities */
 };
@@ -18,9 +18,8 @@ void gb_curve_list_init(struct gb_curve_list *list, const struct gb_session *ses
                         double pressure_pa);
 void gb_curve_list_draw(struct gb_curve_list *list, const struct gb_session *session,
                         const struct gb_paint *paint);
-/* Moves the focus by lines. */
-void gb_curve_list_go(struct gb_curve_list *list, const struct gb_session *session,
-                      int by);
+void gb_curve_list_navigate(struct gb_curve_list *list, const struct gb_session *session,
+                            enum gb_action action);
 /* Begins to type the name in focus. */
 void gb_curve_list_rename(struct gb_curve_list *list, struct gb_session *session);
 /* Takes an event while a name is typed; false: nothing is typed, or it ends. */

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "tui/app/key_commands.h"
-#include "tui/panel/list_box.h"
 #include "tui/panel/density_table.h"
+#include "tui/panel/list_box.h"
 #include "tui/panel/prompt.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
@@ -487,10 +487,9 @@ static enum gb_dialog_result scroll(struct gb_dialog *dialog, int code)
     return GB_DIALOG_OPEN;
 }
 
-/* The list limits the position. */
 static enum gb_dialog_result scroll_help(struct gb_dialog *dialog, int code)
 {
-    dialog->help.top += list_step(gb_keys_action(code), dialog->help.page);
+    (void)gb_list_box_navigate(&dialog->help.box, gb_keys_action(code));
     return GB_DIALOG_OPEN;
 }
 
@@ -538,7 +537,7 @@ static enum gb_dialog_result go_in_curves(struct gb_dialog *dialog, int code)
         gb_curve_list_rename(list, dialog->session);
         return GB_DIALOG_OPEN;
     }
-    gb_curve_list_go(list, dialog->session, list_step(action, list->page));
+    gb_curve_list_navigate(list, dialog->session, action);
     return GB_DIALOG_OPEN;
 }
 

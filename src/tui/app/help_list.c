@@ -1,7 +1,6 @@
 #include "tui/app/help_list.h"
 
 #include <glib.h>
-#include <string.h>
 
 #include "tui/app/keys.h"
 
@@ -85,12 +84,7 @@ static bool wanted(const struct lines *lines, const char *name, const char *text
                    const char *heading)
 {
     char *joined = g_strdup_printf("%s %s %s", name, text, heading);
-    char *all = g_utf8_strdown(joined, -1);
-    bool found = true;
-    for (size_t i = 0; lines->wanted[i] != NULL; i++) {
-        found = found && strstr(all, lines->wanted[i]) != NULL;
-    }
-    g_free(all);
+    const bool found = gb_list_box_matches(lines->wanted, joined);
     g_free(joined);
     return found;
 }
@@ -126,49 +120,54 @@ static void add_glossary(struct lines *lines)
 
 void gb_help_list_init(struct gb_help_list *list)
 {
-    memset(list, 0, sizeof *list);
-    gb_prompt_set(&list->filter, "");
+    *list = (struct gb_help_list){.box = {.unfocused = true}};
 }
 
 bool gb_help_list_handle(struct gb_help_list *list, const struct gb_term_event *event)
 {
     if ((event->kind == GB_TERM_TEXT && event->code == '?') ||
-        !gb_prompt_handle(&list->filter, event)) {
+        !gb_prompt_handle(&list->box.filter, event)) {
         return false;
     }
-    list->top = 0;
+    list->box.top = 0;
     return true;
 }
 
-static void draw_line(const struct gb_paint *paint, int row, const struct line *line)
+static void write_line(void *data, int item, struct gb_list_box_line *out)
 {
-    if (line->name != NULL) {
-        gb_paint_text(paint, row, 0, GB_STYLE_BOLD, line->name);
+    const struct lines *lines = data;
+    const struct line *line = g_ptr_array_index(lines->line, (guint)item);
+    out->style = line->style;
+    if (line->col < KEY_COLS) { /* from the left edge, or indented */
+        out->whole = g_strdup_printf("%*s%s", line->col, "", line->text);
+    } else {
+        out->cell[0] = g_strdup(line->name);
+        out->ink[0] = GB_STYLE_BOLD;
+        out->cell[1] = g_strdup(line->text);
     }
-    gb_paint_text(paint, row, line->col, line->style, line->text);
 }
 
 void gb_help_list_draw(struct gb_help_list *list, const struct gb_paint *paint)
 {
-    char *typed = g_utf8_strdown(gb_prompt_text(&list->filter), -1);
+    static const struct gb_list_box_look look = {
+        .columns = 2,
+        .column = {{.cols = KEY_COLS}, {.cols = 0}},
+        .empty = "no key and no word of the glossary has this",
+        .empty_style = GB_STYLE_WARN,
+        .write = write_line};
+    char *typed = g_utf8_casefold(gb_prompt_text(&list->box.filter), -1);
     struct lines lines = {.line = g_ptr_array_new_with_free_func(free_line),
                           .paint = paint,
                           .wanted = g_strsplit(typed, " ", -1)};
+    struct gb_rect rect = paint->rect;
+    rect.row += HEAD_ROWS;
+    rect.rows -= HEAD_ROWS;
+    const struct gb_paint rows = gb_paint_at(paint->term, rect);
     add_keys(&lines);
     add_glossary(&lines);
-    const int count = (int)lines.line->len;
-    list->page = MAX(paint->rect.rows - HEAD_ROWS, 1);
-    list->top = CLAMP(list->top, 0, MAX(count - list->page, 0));
-    const int col = gb_paint_text(paint, 0, 0, GB_STYLE_DIM, "Filter: ");
-    gb_prompt_draw(&list->filter, paint, 0, col, paint->rect.cols - col);
-    for (int i = 0; i < list->page && list->top + i < count; i++) {
-        draw_line(paint, HEAD_ROWS + i,
-                  g_ptr_array_index(lines.line, (guint)(list->top + i)));
-    }
-    if (count == 0) {
-        gb_paint_text(paint, HEAD_ROWS, 0, GB_STYLE_WARN,
-                      "no key and no word of the glossary has this");
-    }
+    gb_list_box_set_count(&list->box, (int)lines.line->len);
+    gb_list_box_draw_filter(&list->box, paint, 0, 0, "Filter:");
+    gb_list_box_draw(&list->box, &rows, &look, &lines);
     g_strfreev(lines.wanted);
     g_free(typed);
     g_ptr_array_free(lines.line, TRUE);

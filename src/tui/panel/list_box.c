@@ -4,6 +4,8 @@
 #include <ncurses.h>
 #include <string.h>
 
+enum { FAR = 1 << 20 }; /* beyond any list */
+
 void gb_list_box_finish(struct gb_list_box *list)
 {
     g_free(list->item);
@@ -70,7 +72,7 @@ int gb_list_box_focused(const struct gb_list_box *list)
 void gb_list_box_go(struct gb_list_box *list, int by)
 {
     if (list->unfocused) {
-        list->top = CLAMP(list->top + by, 0, MAX(list->count - list->page, 0));
+        list->top = MAX(list->top + by, 0); /* drawing limits it */
     } else {
         list->focus = CLAMP(list->focus + by, 0, MAX(list->count - 1, 0));
     }
@@ -92,10 +94,10 @@ bool gb_list_box_navigate(struct gb_list_box *list, enum gb_action action)
         gb_list_box_go(list, list->page);
         return true;
     case GB_ACTION_HOME:
-        gb_list_box_go(list, -list->count);
+        gb_list_box_go(list, -FAR);
         return true;
     case GB_ACTION_END:
-        gb_list_box_go(list, list->count);
+        gb_list_box_go(list, FAR);
         return true;
     default:
         return false;
@@ -147,13 +149,13 @@ static int place(const struct gb_list_box_look *look, int cols, int column, int 
     }
 }
 
-/* Every column but the last one ends with a blank. */
+/* Columns end with a blank, except the last one and tight ones. */
 static void draw_cell(const struct gb_paint *paint, const struct gb_list_box_look *look,
                       int row, int column, enum gb_style style, const char *text)
 {
     int width = 0;
     const int col = place(look, paint->rect.cols, column, &width);
-    width -= column + 1 < look->columns;
+    width -= column + 1 < look->columns && !look->column[column].tight;
     if (look->column[column].right) {
         gb_paint_text(paint, row, col + width - gb_paint_width(text), style, text);
     } else {

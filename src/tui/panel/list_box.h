@@ -36,6 +36,7 @@ struct gb_list_box_column {
     const char *title;
     int cols;   /* 0: all that the others leave */
     bool right; /* aligned */
+    bool tight; /* no blank after it */
 };
 
 /* How a list is drawn. */

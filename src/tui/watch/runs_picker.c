@@ -2,57 +2,45 @@
 
 #include <ncurses.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "io/runs/run_delete.h"
 #include "io/runs/run_line.h"
 #include "io/runs/run_list.h"
 #include "tui/app/keys.h"
-#include "tui/panel/prompt.h"
+#include "tui/panel/list_box.h"
 #include "tui/term/paint.h"
 #include "tui/watch/reread_loop.h"
 
-/* State of the screen: runs_picker.c changes it, runs_picker.c draws it. */
+/* State of the screen. */
 struct picker {
     GPtrArray *(*list)(void);
-    GPtrArray *items; /* all runs */
-    GArray *shown;    /* of guint: those that match the filter */
-    int focus, top, page;
-    struct gb_prompt filter;
-    bool asks; /* whether to delete the focused one */
-    int files; /* of that */
+    GPtrArray *items;       /* all runs */
+    struct gb_list_box box; /* of those that match the filter */
+    bool asks;              /* whether to delete the focused one */
+    int files;              /* of that */
     char note[400];
     enum gb_style note_style;
     bool leave;
     char *chosen; /* directory; NULL: none */
 };
 
-static const struct gb_run_list_item *item_at(const struct picker *picker, int index)
-{
-    return index >= 0 && index < (int)picker->shown->len
-               ? g_ptr_array_index(picker->items,
-                                   g_array_index(picker->shown, guint, index))
-               : NULL;
-}
-
+/* The run in focus; NULL: none matches. */
 static const struct gb_run_list_item *focused(const struct picker *picker)
 {
-    return item_at(picker, picker->focus);
+    const int item = gb_list_box_focused(&picker->box);
+    return item >= 0 ? g_ptr_array_index(picker->items, (guint)item) : NULL;
 }
 
 /* Every word of the filter is in the name, the title or the state. */
-static bool matches(const struct gb_run_list_item *item, char **words)
+static int rank_run(void *data, int at, char **words)
 {
+    const struct picker *picker = data;
+    const struct gb_run_list_item *item = g_ptr_array_index(picker->items, (guint)at);
     const char *engine =
         item->engine != GB_RUN_LIST_NONE ? gb_run_list_engine_word(item->engine) : "";
     char *text =
         g_strdup_printf("%s %s %s %s", item->name, item->title, item->state, engine);
-    char *folded = g_utf8_casefold(text, -1);
-    bool good = true;
-    for (int i = 0; words[i] != NULL && good; i++) {
-        good = strstr(folded, words[i]) != NULL;
-    }
-    g_free(folded);
+    const bool good = gb_list_box_matches(words, text);
     g_free(text);
     return good;
 }
@@ -60,22 +48,16 @@ static bool matches(const struct gb_run_list_item *item, char **words)
 /* The run of this directory keeps the focus; NULL: the first one. */
 static void apply_filter(struct picker *picker, const char *directory)
 {
-    char *folded = g_utf8_casefold(gb_prompt_text(&picker->filter), -1);
-    char **words = g_strsplit(folded, " ", -1);
-    g_array_set_size(picker->shown, 0);
-    picker->focus = 0;
-    for (guint i = 0; i < picker->items->len; i++) {
-        const struct gb_run_list_item *item = g_ptr_array_index(picker->items, i);
-        if (!matches(item, words)) {
-            continue;
-        }
-        if (g_strcmp0(item->directory, directory) == 0) {
-            picker->focus = (int)picker->shown->len;
-        }
-        g_array_append_val(picker->shown, i);
+    const int top = picker->box.top;
+    gb_list_box_search(&picker->box, (int)picker->items->len, rank_run, picker);
+    picker->box.top = top;
+    while (directory != NULL && picker->box.focus < picker->box.count &&
+           g_strcmp0(focused(picker)->directory, directory) != 0) {
+        picker->box.focus++;
     }
-    g_strfreev(words);
-    g_free(folded);
+    if (picker->box.focus == picker->box.count) {
+        picker->box.focus = 0;
+    }
 }
 
 static void reread(struct picker *picker)
@@ -96,8 +78,8 @@ static void reread(struct picker *picker)
 /* Esc clears the filter first. */
 static void leave(struct picker *picker)
 {
-    if (*gb_prompt_text(&picker->filter) != '\0') {
-        gb_prompt_set(&picker->filter, "");
+    if (*gb_prompt_text(&picker->box.filter) != '\0') {
+        gb_prompt_set(&picker->box.filter, "");
         reread(picker);
     } else {
         picker->leave = true;
@@ -131,44 +113,41 @@ static void draw_header(const struct picker *picker, const struct gb_paint *pain
     g_free(size);
 }
 
-static enum gb_style style_of(const struct gb_run_list_item *item, bool focused)
-{
-    return focused                            ? GB_STYLE_SELECTED
-           : item->engine != GB_RUN_LIST_NONE ? GB_STYLE_GOOD
-                                              : GB_STYLE_PLAIN;
-}
+/* What a row is written from. */
+struct source {
+    const struct picker *picker;
+    enum gb_run_line_extent extent;
+};
 
-static void draw_row(const struct gb_paint *paint, int row, const char *name,
-                     const char *values, enum gb_style style)
+static void write_run(void *data, int at, struct gb_list_box_line *line)
 {
-    const int width = gb_paint_width(values);
-    const int cols = MAX(paint->rect.cols - 2 - width - 2, 1);
-    const int col = gb_paint_cell(paint, row, 1, cols, style, name);
-    gb_paint_cell(paint, row, col, paint->rect.cols - 1 - col, style, "");
-    gb_paint_text(paint, row, col + 2, style, values);
+    const struct source *source = data;
+    const struct gb_run_list_item *item =
+        g_ptr_array_index(source->picker->items, (guint)at);
+    line->style = item->engine != GB_RUN_LIST_NONE ? GB_STYLE_GOOD : GB_STYLE_PLAIN;
+    line->cell[0] = g_strdup(item->name);
+    line->cell[1] = gb_run_line_values(item, source->extent);
 }
 
 static void draw_list(struct picker *picker, const struct gb_paint *paint)
 {
-    const enum gb_run_line_extent extent =
-        paint->rect.cols >= ALL_COLS ? GB_RUN_LINE_ALL : GB_RUN_LINE_BRIEF;
-    const int count = (int)picker->shown->len;
-    char *head = gb_run_line_head(extent);
-    draw_row(paint, ABOVE - 1, "name", head, GB_STYLE_DIM);
+    struct source source = {picker, paint->rect.cols >= ALL_COLS ? GB_RUN_LINE_ALL
+                                                                 : GB_RUN_LINE_BRIEF};
+    char *head = gb_run_line_head(source.extent);
+    const struct gb_list_box_look look = {
+        .columns = 2,
+        .column = {{.title = "name"},
+                   {.title = head, .cols = gb_paint_width(head) + 1, .right = true}},
+        .head = GB_STYLE_DIM,
+        .titled = true,
+        .empty = "no run matches",
+        .empty_style = GB_STYLE_DIM,
+        .write = write_run};
+    const struct gb_rect rect = {ABOVE - 1, 1, paint->rect.rows - ABOVE - BELOW + 1,
+                                 paint->rect.cols - 2};
+    const struct gb_paint rows = gb_paint_at(paint->term, rect);
+    gb_list_box_draw(&picker->box, &rows, &look, &source);
     g_free(head);
-    picker->page = paint->rect.rows - ABOVE - BELOW;
-    picker->top = CLAMP(picker->top, picker->focus - picker->page + 1, picker->focus);
-    picker->top = MAX(MIN(picker->top, count - picker->page), 0);
-    for (int i = 0; i < picker->page && picker->top + i < count; i++) {
-        const struct gb_run_list_item *item = item_at(picker, picker->top + i);
-        char *values = gb_run_line_values(item, extent);
-        draw_row(paint, ABOVE + i, item->name, values,
-                 style_of(item, picker->top + i == picker->focus));
-        g_free(values);
-    }
-    if (count == 0) {
-        gb_paint_text(paint, ABOVE, 1, GB_STYLE_DIM, "no run matches");
-    }
 }
 
 /* Directory of the focused run, a question or a note, the keys. */
@@ -210,8 +189,7 @@ static void draw_screen(struct picker *picker, const struct gb_term *term)
         return;
     }
     draw_header(picker, &paint);
-    gb_paint_text(&paint, 1, 1, GB_STYLE_DIM, "Filter:");
-    gb_prompt_draw(&picker->filter, &paint, 1, 9, cols - 10);
+    gb_list_box_draw_filter(&picker->box, &paint, 1, 1, "Filter:");
     draw_list(picker, &paint);
     draw_foot(picker, &paint);
 }
@@ -219,7 +197,7 @@ static void draw_screen(struct picker *picker, const struct gb_term *term)
 /* Seconds between two readings of the folders. */
 static const double reread_s = 2.0;
 
-enum { CTRL_D = 'D' & 31, FAR = 100000 };
+enum { CTRL_D = 'D' & 31 };
 
 static void say(struct picker *picker, enum gb_style style, const char *text)
 {
@@ -245,7 +223,7 @@ static void ask(struct picker *picker)
 static void delete_focused(struct picker *picker)
 {
     const struct gb_run_list_item *item = focused(picker);
-    const int focus = picker->focus;
+    const int focus = picker->box.focus;
     struct gb_error err = {0};
     char text[400];
     if (gb_run_delete(item->directory, &err)) {
@@ -256,13 +234,8 @@ static void delete_focused(struct picker *picker)
     }
     picker->asks = false;
     reread(picker);
-    picker->focus = MAX(MIN(focus, (int)picker->shown->len - 1), 0);
-}
-
-static void go(struct picker *picker, int by)
-{
-    const int last = MAX((int)picker->shown->len - 1, 0);
-    picker->focus = CLAMP(picker->focus + by, 0, last);
+    picker->box.focus = focus;
+    gb_list_box_go(&picker->box, 0);
 }
 
 static void choose(struct picker *picker)
@@ -278,18 +251,6 @@ static void choose(struct picker *picker)
 static bool act(struct picker *picker, int code)
 {
     switch (code) {
-    case KEY_UP:
-        go(picker, -1);
-        return true;
-    case KEY_DOWN:
-        go(picker, 1);
-        return true;
-    case KEY_PPAGE:
-        go(picker, -picker->page);
-        return true;
-    case KEY_NPAGE:
-        go(picker, picker->page);
-        return true;
     case KEY_DC:
     case CTRL_D:
         ask(picker);
@@ -321,7 +282,7 @@ static void press(struct picker *picker, const struct gb_term_event *event)
     if (event->kind == GB_TERM_KEY && act(picker, event->code)) {
         return;
     }
-    if (gb_prompt_handle(&picker->filter, event)) {
+    if (gb_list_box_handle(&picker->box, event) == GB_LIST_BOX_TYPED) {
         apply_filter(picker, NULL);
     }
 }
@@ -336,7 +297,8 @@ static bool on_key(void *data, struct gb_term *term, const struct gb_term_event 
 
 static void on_wheel(void *data, int rows)
 {
-    go(data, rows);
+    struct picker *picker = data;
+    gb_list_box_go(&picker->box, rows);
 }
 
 static void on_reread(void *data)
@@ -357,8 +319,6 @@ int gb_runs_picker_run(GPtrArray *(*list)(void), const struct gb_settings *setti
     struct gb_term *term = NULL;
     int status = gb_status_exit_code(GB_ERR_MACHINE);
     picker->list = list;
-    picker->shown = g_array_new(FALSE, FALSE, sizeof(guint));
-    gb_prompt_set(&picker->filter, "");
     *directory = NULL;
     if (gb_term_start(&term, settings, err)) {
         reread(picker);
@@ -368,7 +328,7 @@ int gb_runs_picker_run(GPtrArray *(*list)(void), const struct gb_settings *setti
         *directory = status == 0 ? g_steal_pointer(&picker->chosen) : NULL;
     }
     g_clear_pointer(&picker->items, g_ptr_array_unref);
-    g_array_unref(picker->shown);
+    gb_list_box_finish(&picker->box);
     g_free(picker->chosen);
     g_free(picker);
     return status;

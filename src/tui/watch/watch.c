@@ -12,11 +12,26 @@
 #include "tui/panel/panels.h"
 #include "tui/term/paint.h"
 #include "tui/watch/reread_loop.h"
+#include "tui/watch/runset_view.h"
 
-enum { MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10, LAST_ASCII = 126 };
+enum { MIN_ROWS = 12, MIN_COLS = 40, LAST_ASCII = 126 };
+
+/* The screen of many runs, read-only: curves as means with bands, a map over two varied
+ * keys at a pressure, the runs, the fit of a calibration. */
+struct watch {
+    struct gb_runset_view runset;
+    struct gb_error error; /* error of the last reading */
+    bool leave;
+    int view;     /* row of `views` */
+    size_t level; /* pressure of the map */
+    bool linear;  /* linear pressure axis */
+    struct gb_list_box runs;
+    int glyphs; /* enum gb_plot_glyphs */
+    struct gb_plot plot;
+};
 
 /* "8 runs: 5 done, 2 live, 1 failed  72 %" */
-static void draw_header(const struct gb_watch *watch, const struct gb_paint *paint)
+static void draw_header(const struct watch *watch, const struct gb_paint *paint)
 {
     const struct gb_runset_view *runset = &watch->runset;
     char *name = g_path_get_basename(runset->directory);
@@ -32,7 +47,7 @@ static void draw_header(const struct gb_watch *watch, const struct gb_paint *pai
     g_free(name);
 }
 
-static void watch_fit_draw(struct gb_watch *watch, const struct gb_paint *paint)
+static void watch_fit_draw(struct watch *watch, const struct gb_paint *paint)
 {
     struct gb_rect rect = paint->rect;
     rect.col += 1;
@@ -47,26 +62,36 @@ static void watch_fit_draw(struct gb_watch *watch, const struct gb_paint *paint)
     }
 }
 
-enum { STATE_COL = 2, ERROR_COL = 22 };
-
-static void watch_runs_draw(struct gb_watch *watch, const struct gb_paint *paint)
+static void write_run(void *data, int item, struct gb_list_box_line *line)
 {
-    const int page = paint->rect.rows - 1;
-    const int last = (int)watch->runset.runs - page;
-    watch->top = MAX(MIN(watch->top, last), 0);
-    for (int i = 0; i < page && watch->top + i < (int)watch->runset.runs; i++) {
-        const struct gb_runset_view_run *run = &watch->runset.run[watch->top + i];
-        enum gb_style style = GB_STYLE_PLAIN;
-        const char *word = gb_panel_state_word(run->state, run->error, &style);
-        gb_paint_text(paint, 1 + i, STATE_COL, style, word);
-        gb_paint_format(paint, 1 + i, STATE_COL + 12, GB_STYLE_PLAIN, "%4.0f %%",
-                        floor(100.0 * run->progress));
-        const int col = gb_paint_text(paint, 1 + i, ERROR_COL, GB_STYLE_PLAIN, run->name);
-        gb_paint_text(paint, 1 + i, col + 2, GB_STYLE_WARN, run->error);
-    }
+    const struct watch *watch = data;
+    const struct gb_runset_view_run *run = &watch->runset.run[item];
+    enum gb_style style = GB_STYLE_PLAIN;
+    line->cell[0] = g_strdup(gb_panel_state_word(run->state, run->error, &style));
+    line->ink[0] = (int)style;
+    line->cell[1] = g_strdup_printf("%4.0f %%", floor(100.0 * run->progress));
+    line->cell[2] = g_strdup(run->name);
+    line->cell[3] = g_strdup(run->error);
+    line->ink[3] = GB_STYLE_WARN;
 }
 
-static void write_pressure(const struct gb_watch *watch, char *text, size_t size)
+/* State, progress, name, and why a run failed. */
+static void watch_runs_draw(struct watch *watch, const struct gb_paint *paint)
+{
+    const struct gb_rect rect = {paint->rect.row + 1, paint->rect.col + 2,
+                                 paint->rect.rows - 1, paint->rect.cols - 2};
+    const struct gb_paint rows = gb_paint_at(paint->term, rect);
+    struct gb_list_box_look look = {
+        .columns = 4, .column = {{.cols = 12}, {.cols = 8}}, .write = write_run};
+    for (size_t i = 0; i < watch->runset.runs; i++) {
+        look.column[2].cols =
+            MAX(look.column[2].cols, gb_paint_width(watch->runset.run[i].name) + 2);
+    }
+    gb_list_box_set_count(&watch->runs, (int)watch->runset.runs);
+    gb_list_box_draw(&watch->runs, &rows, &look, watch);
+}
+
+static void write_pressure(const struct watch *watch, char *text, size_t size)
 {
     gb_units_format_short(watch->runset.level_pa[watch->level], GB_DIM_PRESSURE, 3, text,
                           size);
@@ -79,7 +104,7 @@ struct range {
     double min, max;
 };
 
-static struct range range_of(const struct gb_watch *watch)
+static struct range range_of(const struct watch *watch)
 {
     struct range range = {HUGE_VAL, -HUGE_VAL};
     for (size_t g = 0; g < watch->runset.groups; g++) {
@@ -91,7 +116,7 @@ static struct range range_of(const struct gb_watch *watch)
 }
 
 /* "▓▓ 0.5120 +-0.0030": darker is denser; "▓0.512 +-0.003" and "▓0.512" in narrow columns. */
-static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint, int row,
+static void draw_cell(const struct watch *watch, const struct gb_paint *paint, int row,
                       int col, int cols, const struct gb_runset_view_group *group,
                       struct range range)
 {
@@ -116,7 +141,7 @@ static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint
     gb_paint_cell(paint, row, col, cols, GB_STYLE_PLAIN, text);
 }
 
-static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *paint)
+static void draw_matrix(const struct watch *watch, const struct gb_paint *paint)
 {
     const struct gb_runset_view *runset = &watch->runset;
     const struct gb_runset_view_key *across = &runset->key[0], *down = &runset->key[1];
@@ -156,7 +181,7 @@ static void watch_views_group_name(const struct gb_runset_view_group *group, cha
 }
 
 /* One row per group, where one key varies or more than two. */
-static void draw_list(const struct gb_watch *watch, const struct gb_paint *paint)
+static void draw_list(const struct watch *watch, const struct gb_paint *paint)
 {
     const struct range range = range_of(watch);
     for (size_t g = 0; g < watch->runset.groups; g++) {
@@ -168,7 +193,7 @@ static void draw_list(const struct gb_watch *watch, const struct gb_paint *paint
     }
 }
 
-static void watch_map_draw(struct gb_watch *watch, const struct gb_paint *paint)
+static void watch_map_draw(struct watch *watch, const struct gb_paint *paint)
 {
     char pressure[32];
     write_pressure(watch, pressure, sizeof pressure);
@@ -181,7 +206,7 @@ static void watch_map_draw(struct gb_watch *watch, const struct gb_paint *paint)
     }
 }
 
-static void find_ends(const struct gb_watch *watch, double x[2], double y[2])
+static void find_ends(const struct watch *watch, double x[2], double y[2])
 {
     const struct gb_runset_view *runset = &watch->runset;
     x[0] = y[0] = HUGE_VAL;
@@ -204,7 +229,7 @@ static void find_ends(const struct gb_watch *watch, double x[2], double y[2])
 enum { ENTRIES = 64 };
 
 /* The mean plus `off` standard errors. */
-static void draw_curve(struct gb_watch *watch, const struct gb_runset_view_group *group,
+static void draw_curve(struct watch *watch, const struct gb_runset_view_group *group,
                        double off, int ink, int marker)
 {
     double x[GB_RUNSET_VIEW_LEVELS];
@@ -223,7 +248,7 @@ static void draw_curve(struct gb_watch *watch, const struct gb_runset_view_group
 
 /* Draws all groups and the legend, with `foot` rows for it below the plot; false when the
  * legend is incomplete or covers a line.  *needed: rows of a complete foot. */
-static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
+static bool draw_groups(struct watch *watch, const struct gb_paint *paint,
                         const double x[2], const double y[2], int foot, int *needed)
 {
     const struct gb_runset_view *runset = &watch->runset;
@@ -255,7 +280,7 @@ static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
 }
 
 /* Drawing functions, each in the file of its name. */
-static void watch_curves_draw(struct gb_watch *watch, const struct gb_paint *paint)
+static void watch_curves_draw(struct watch *watch, const struct gb_paint *paint)
 {
     double x[2], y[2];
     int foot = 0;
@@ -277,7 +302,7 @@ struct watch_view {
     const char *title; /* without the digit */
     const char *hint;  /* footer: keys of the view; "" without */
     enum { GB_WATCH_VIEW_ALWAYS, GB_WATCH_VIEW_CALIBRATION } shown;
-    void (*draw)(struct gb_watch *watch, const struct gb_paint *paint);
+    void (*draw)(struct watch *watch, const struct gb_paint *paint);
 };
 
 static const struct watch_view views[] = {
@@ -290,7 +315,7 @@ static const struct watch_view views[] = {
 };
 
 /* Number of views that a directory has, and the row of one. */
-static int watch_views_count(const struct gb_watch *watch)
+static int watch_views_count(const struct watch *watch)
 {
     int count = 0;
     for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
@@ -305,14 +330,14 @@ static const struct watch_view *watch_views_at(int index)
 }
 
 /* Common keys, and those of the view. */
-static void write_hint(const struct gb_watch *watch, char *text, size_t size)
+static void write_hint(const struct watch *watch, char *text, size_t size)
 {
     const char *hint = watch_views_at(watch->view)->hint;
     snprintf(text, size, "1-%d views  v next  %s%sq quit", watch_views_count(watch), hint,
              *hint != '\0' ? "  " : "");
 }
 
-static void draw_footer(const struct gb_watch *watch, const struct gb_paint *paint)
+static void draw_footer(const struct watch *watch, const struct gb_paint *paint)
 {
     char hint[120];
     const bool whole = watch->error.code == GB_OK;
@@ -321,7 +346,7 @@ static void draw_footer(const struct gb_watch *watch, const struct gb_paint *pai
                   whole ? GB_STYLE_DIM : GB_STYLE_WARN, whole ? hint : watch->error.text);
 }
 
-static void draw_view(struct gb_watch *watch, const struct gb_paint *paint)
+static void draw_view(struct watch *watch, const struct gb_paint *paint)
 {
     char title[120];
     const struct watch_view *view = watch_views_at(watch->view);
@@ -330,7 +355,7 @@ static void draw_view(struct gb_watch *watch, const struct gb_paint *paint)
     view->draw(watch, paint);
 }
 
-static void draw(struct gb_watch *watch, struct gb_term *term)
+static void draw(struct watch *watch, struct gb_term *term)
 {
     int rows = 0;
     int cols = 0;
@@ -353,7 +378,7 @@ static void draw(struct gb_watch *watch, struct gb_term *term)
 }
 
 /* The view shown first: the fit of a calibration, otherwise the curves. */
-static int watch_views_first(const struct gb_watch *watch)
+static int watch_views_first(const struct watch *watch)
 {
     const int last = watch_views_count(watch) - 1;
     return views[last].shown == GB_WATCH_VIEW_CALIBRATION ? last : 0;
@@ -364,13 +389,13 @@ static const double reread_s = 1.0;
 /* Initial pressure of the map: P1 compares powders there. */
 static const double default_pa = 100e6;
 
-static void move_level(struct gb_watch *watch, int by)
+static void move_level(struct watch *watch, int by)
 {
     const int to = (int)watch->level + by;
     watch->level = (size_t)CLAMP(to, 0, MAX((int)watch->runset.levels - 1, 0));
 }
 
-static void show_view(struct gb_watch *watch, int view)
+static void show_view(struct watch *watch, int view)
 {
     if (view < watch_views_count(watch)) {
         watch->view = view;
@@ -379,45 +404,45 @@ static void show_view(struct gb_watch *watch, int view)
 
 enum { CTRL_L = 'L' & 31 };
 
-static void next_view(struct gb_watch *watch, struct gb_term *term)
+static void next_view(struct watch *watch, struct gb_term *term)
 {
     (void)term;
     show_view(watch, (watch->view + 1) % watch_views_count(watch));
 }
 
-static void previous_view(struct gb_watch *watch, struct gb_term *term)
+static void previous_view(struct watch *watch, struct gb_term *term)
 {
     (void)term;
     show_view(watch,
               (watch->view + watch_views_count(watch) - 1) % watch_views_count(watch));
 }
 
-static void toggle_log(struct gb_watch *watch, struct gb_term *term)
+static void toggle_log(struct watch *watch, struct gb_term *term)
 {
     (void)term;
     watch->linear = !watch->linear;
 }
 
-static void next_glyphs(struct gb_watch *watch, struct gb_term *term)
+static void next_glyphs(struct watch *watch, struct gb_term *term)
 {
     if (gb_term_utf8(term)) {
         watch->glyphs = (watch->glyphs + 1) % GB_PLOT_GLYPHS;
     }
 }
 
-static void repaint(struct gb_watch *watch, struct gb_term *term)
+static void repaint(struct watch *watch, struct gb_term *term)
 {
     (void)watch;
     gb_term_repaint(term);
 }
 
-static void leave(struct gb_watch *watch, struct gb_term *term)
+static void leave(struct watch *watch, struct gb_term *term)
 {
     (void)term;
     watch->leave = true;
 }
 
-static void navigate(struct gb_watch *watch, enum gb_action action)
+static void navigate(struct watch *watch, enum gb_action action)
 {
     switch (action) {
     case GB_ACTION_LEFT:
@@ -426,19 +451,8 @@ static void navigate(struct gb_watch *watch, enum gb_action action)
     case GB_ACTION_RIGHT:
         move_level(watch, 1);
         break;
-    case GB_ACTION_UP:
-        watch->top--;
-        break;
-    case GB_ACTION_DOWN:
-        watch->top++;
-        break;
-    case GB_ACTION_PAGE_UP:
-        watch->top -= PAGE;
-        break;
-    case GB_ACTION_PAGE_DOWN:
-        watch->top += PAGE;
-        break;
     default:
+        (void)gb_list_box_navigate(&watch->runs, action);
         break;
     }
 }
@@ -446,14 +460,14 @@ static void navigate(struct gb_watch *watch, enum gb_action action)
 /* Keys other than digits of the views and navigation. */
 static const struct {
     int code[4];
-    void (*act)(struct gb_watch *watch, struct gb_term *term);
+    void (*act)(struct watch *watch, struct gb_term *term);
 } keys[] = {
     {{'v', '\t', 'n'}, next_view}, {{'V', KEY_BTAB, 'N'}, previous_view},
     {{'L'}, toggle_log},           {{'b'}, next_glyphs},
     {{CTRL_L}, repaint},           {{'q', KEY_F(10)}, leave},
 };
 
-static void act(struct gb_watch *watch, struct gb_term *term, int code)
+static void act(struct watch *watch, struct gb_term *term, int code)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(keys); i++) {
         for (size_t k = 0; k < G_N_ELEMENTS(keys[i].code) && keys[i].code[k] != 0; k++) {
@@ -472,7 +486,7 @@ static void act(struct gb_watch *watch, struct gb_term *term, int code)
 
 /* After an error the old data stay on the screen with the message; the files are read
  * again later. */
-static void reread(struct gb_watch *watch)
+static void reread(struct watch *watch)
 {
     struct gb_runset_view fresh;
     char *directory = g_strdup(watch->runset.directory);
@@ -491,7 +505,7 @@ static void reread(struct gb_watch *watch)
 
 static bool on_key(void *data, struct gb_term *term, const struct gb_term_event *event)
 {
-    struct gb_watch *watch = data;
+    struct watch *watch = data;
     if (event->code <= LAST_ASCII || event->kind == GB_TERM_KEY) {
         act(watch, term, event->code);
     }
@@ -500,8 +514,8 @@ static bool on_key(void *data, struct gb_term *term, const struct gb_term_event 
 
 static void on_wheel(void *data, int rows)
 {
-    struct gb_watch *watch = data;
-    watch->top += rows;
+    struct watch *watch = data;
+    gb_list_box_go(&watch->runs, rows);
 }
 
 static void on_reread(void *data)
@@ -526,7 +540,7 @@ static int first_glyphs(const struct gb_term *term, const struct gb_settings *se
 int gb_watch_run(const char *directory, const struct gb_settings *settings,
                  struct gb_error *err)
 {
-    struct gb_watch watch = {.view = 0};
+    struct watch watch = {.runs = {.unfocused = true}};
     struct gb_term *term = NULL;
     if (!gb_runset_view_read(&watch.runset, directory, err) ||
         !gb_term_start(&term, settings, err)) {
