@@ -16,6 +16,9 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term_tty.h"
 
+/* The workbench: keys and mouse events go to the open dialog, the edited value or the key
+ * table; a loop draws frames and takes news of the session. */
+
 enum { WHEEL_ROWS = 3 };
 
 static bool contains(const struct gb_rect *rect, int row, int col)

@@ -13,6 +13,9 @@
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
 
+/* Dialogs: one form for each kind (list, line, question, cards, picture), and the dialog that
+ * is open. */
+
 enum { NAME_COLS = 9, CHOICES_MOST = 6 };
 
 /* A choice: what the screen says, and the option of the command; NULL: none. */

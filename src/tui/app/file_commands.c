@@ -11,6 +11,8 @@
 #include "tui/session/params_diff.h"
 #include "tui/view/views.h"
 
+/* Commands of files: presets, materials, measured data, pictures, reports. */
+
 /* The user's presets. */
 
 /* Suggested name for saving a preset: its own for a preset of the user, otherwise with

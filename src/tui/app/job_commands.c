@@ -14,6 +14,8 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/view/views.h"
 
+/* Commands of the jobs: replicas, calibration, moduli, chart, stability, and their results. */
+
 /* Results of the jobs in the background, as cards. */
 
 /* The equations fitted to what is shown, with the intervals that the view has. */

@@ -26,8 +26,8 @@ static void tell_changes(struct gb_app *app)
 {
     const char *changes = gb_session_params(&app->screen.session)->changes;
     if (changes[0] != '\0') {
-        char *text = g_strdup_printf("this run has the changes after step %s; D drops them",
-                                     changes);
+        char *text = g_strdup_printf(
+            "this run has the changes after step %s; D drops them", changes);
         gb_session_note(&app->screen.session, "%s", text);
         gb_screen_commands_message(app, GB_STYLE_WARN, text);
         g_free(text);
@@ -193,7 +193,8 @@ void gb_run_commands_accept_what_if(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
     struct gb_error err = {0};
-    if (!gb_session_whatif_request(&app->screen.session, gb_dialog_answer(dialog), &err)) {
+    if (!gb_session_whatif_request(&app->screen.session, gb_dialog_answer(dialog),
+                                   &err)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
         return;
     }

@@ -11,6 +11,8 @@
 #include "tui/app/keys.h"
 #include "tui/legs/leg_sketch.h"
 
+/* The editor of a loading path: the legs as texts, a leg in words, keys, drawing. */
+
 /* The legs of a loading path under edit, one text each, with what is wrong with them. */
 
 static int leg_list_count(const struct gb_leg_list *list)

@@ -9,6 +9,8 @@
 #include "tui/panel/panels.h"
 #include "tui/session/session.h"
 
+/* The pane of the parameters: which are listed, the next value of one, editing, drawing. */
+
 void gb_panel_params_list_init(struct gb_param_list *list, const struct gb_params *params,
                                bool all)
 {

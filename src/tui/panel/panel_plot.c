@@ -13,6 +13,9 @@
 #include "tui/term/paint.h"
 #include "tui/view/views.h"
 
+/* The pane of the plot: ranges that are typed, the cursor over points, pressures or settings,
+ * and the drawing of the present view. */
+
 /* Names of the quantities as they are typed. */
 static const struct {
     const char *name;

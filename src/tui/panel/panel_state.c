@@ -12,10 +12,13 @@
 #include "tui/session/pressure_rows.h"
 #include "tui/session/session.h"
 
+/* The pane of the state: numbers as text, the quantities with a row each, and the columns. */
+
 /* Quantities of the state pane.  A new one is a writing function and a row. */
 struct panel_state_item {
     const char *brief, *name; /* for narrow and wide columns */
     void (*write)(const struct gb_session_shown *shown, char *text, size_t size);
+    int rank; /* of importance, for panes that are too small for all; 0 is the first */
 };
 
 enum { GB_PANEL_STATE_ITEMS = 20 };
@@ -23,7 +26,7 @@ enum { GB_PANEL_STATE_ITEMS = 20 };
 /* The items that apply to a run, in the order of the columns and of importance. */
 struct panel_state_choice {
     const struct panel_state_item *item[GB_PANEL_STATE_ITEMS];
-    const struct panel_state_item *by_weight[GB_PANEL_STATE_ITEMS];
+    const struct panel_state_item *by_rank[GB_PANEL_STATE_ITEMS];
     int count;
 };
 
@@ -293,107 +296,95 @@ static void die_time(const struct gb_session_shown *shown, char *text, size_t si
 
 /* Order of the columns when all fit. */
 static const struct panel_state_item still_items[] = {
-    {"leg", "leg", leg},
-    {"density", "relative density", density},
-    {"coord.", "mean coordination number", contacts},
-    {"bridged", "bridged contacts", bridged},
-    {"rattl.", "rattlers", rattlers},
-    {"p", "pressure p", p},
-    {"px", "  along x", px},
-    {"py", "  along y", py},
-    {"pz", "  along z", pz},
-    {"q", "deviatoric stress q", q},
-    {"xy", "shear stress xy", stress_xy},
-    {"xz", "shear stress xz", stress_xz},
-    {"yz", "shear stress yz", stress_yz},
-    {"residual", "force residual", residual},
-    {"evals", "force evaluations", evaluations},
-    {"evals/s", "force evaluations/s", rate},
-    {"elapsed", "elapsed time", elapsed_time},
+    {"leg", "leg", leg, 0},
+    {"density", "relative density", density, 1},
+    {"coord.", "mean coordination number", contacts, 8},
+    {"bridged", "bridged contacts", bridged, 11},
+    {"rattl.", "rattlers", rattlers, 12},
+    {"p", "pressure p", p, 2},
+    {"px", "  along x", px, 13},
+    {"py", "  along y", py, 14},
+    {"pz", "  along z", pz, 9},
+    {"q", "deviatoric stress q", q, 3},
+    {"xy", "shear stress xy", stress_xy, 5},
+    {"xz", "shear stress xz", stress_xz, 4},
+    {"yz", "shear stress yz", stress_yz, 6},
+    {"residual", "force residual", residual, 7},
+    {"evals", "force evaluations", evaluations, 15},
+    {"evals/s", "force evaluations/s", rate, 10},
+    {"elapsed", "elapsed time", elapsed_time, 16},
 };
 
 enum { STILL_ITEMS = sizeof still_items / sizeof still_items[0] };
 
-/* Order of importance, for panes that are too small for all. */
-static const int still_weight[STILL_ITEMS] = {0, 1,  5, 9, 11, 10, 12, 13, 2,
-                                              8, 15, 3, 4, 6,  7,  14, 16};
-
 /* The residual of a dynamic run is the unbalanced force. */
 static const struct panel_state_item moving_items[] = {
-    {"stage", "stage", stage},
-    {"t", "simulated time", simulated},
-    {"density", "relative density", density},
-    {"p", "pressure p", p},
-    {"px", "  along x", px},
-    {"py", "  along y", py},
-    {"pz", "  along z", pz},
-    {"work", "work done", work},
-    {"kin", "kinetic energy", kinetic},
-    {"elast", "elastic energy", elastic},
-    {"diss", "dissipated", dissipated},
-    {"E err", "energy balance error", energy_error},
-    {"coord.", "mean coordination number", contacts},
-    {"bridged", "bridged contacts", bridged},
-    {"rattl.", "rattlers", rattlers},
-    {"unbal.", "unbalanced force", residual},
-    {"step", "time step", time_step},
-    {"steps/s", "time steps/s", rate},
+    {"stage", "stage", stage, 3},
+    {"t", "simulated time", simulated, 2},
+    {"density", "relative density", density, 0},
+    {"p", "pressure p", p, 1},
+    {"px", "  along x", px, 14},
+    {"py", "  along y", py, 17},
+    {"pz", "  along z", pz, 15},
+    {"work", "work done", work, 4},
+    {"kin", "kinetic energy", kinetic, 5},
+    {"elast", "elastic energy", elastic, 6},
+    {"diss", "dissipated", dissipated, 7},
+    {"E err", "energy balance error", energy_error, 8},
+    {"coord.", "mean coordination number", contacts, 10},
+    {"bridged", "bridged contacts", bridged, 13},
+    {"rattl.", "rattlers", rattlers, 16},
+    {"unbal.", "unbalanced force", residual, 9},
+    {"step", "time step", time_step, 11},
+    {"steps/s", "time steps/s", rate, 12},
 };
 
 enum { MOVING_ITEMS = sizeof moving_items / sizeof moving_items[0] };
 
-static const int moving_weight[MOVING_ITEMS] = {2,  3,  1,  0,  7,  8, 9, 10, 11,
-                                                15, 12, 16, 17, 13, 4, 6, 14, 5};
-
 /* Of a die, before its first point: of the bed as it is now. */
 static const struct panel_state_item filling_items[] = {
-    {"in die", "particles in the die", poured},
-    {"height", "height of the powder", filled_height},
-    {"coord.", "mean coordination number", live_contacts},
-    {"kin", "kinetic energy", live_kinetic},
-    {"unbal.", "unbalanced force", residual},
-    {"t", "simulated time", live_time},
-    {"step", "time step", time_step},
-    {"steps", "time steps", evaluations},
-    {"steps/s", "time steps/s", rate},
-    {"elapsed", "elapsed time", elapsed_time},
+    {"in die", "particles in the die", poured, 0},
+    {"height", "height of the powder", filled_height, 1},
+    {"coord.", "mean coordination number", live_contacts, 3},
+    {"kin", "kinetic energy", live_kinetic, 2},
+    {"unbal.", "unbalanced force", residual, 4},
+    {"t", "simulated time", live_time, 6},
+    {"step", "time step", time_step, 9},
+    {"steps", "time steps", evaluations, 8},
+    {"steps/s", "time steps/s", rate, 5},
+    {"elapsed", "elapsed time", elapsed_time, 7},
 };
 
 enum { FILLING_ITEMS = sizeof filling_items / sizeof filling_items[0] };
 
-static const int filling_weight[FILLING_ITEMS] = {0, 1, 3, 2, 4, 8, 5, 9, 7, 6};
-
 /* And at its points. */
 static const struct panel_state_item die_items[] = {
-    {"density", "relative density", density},
-    {"height", "height of the powder", height},
-    {"coord.", "mean coordination number", contacts},
-    {"rattl.", "rattlers", rattlers},
-    {"p", "pressure p", p},
-    {"wall", "radial pressure on the wall", wall},
-    {"floor/p", "floor-to-punch force ratio", floor_ratio},
-    {"unbal.", "unbalanced force", residual},
-    {"t", "simulated time", die_time},
-    {"steps", "time steps", evaluations},
-    {"steps/s", "time steps/s", rate},
-    {"elapsed", "elapsed time", elapsed_time},
+    {"density", "relative density", density, 0},
+    {"height", "height of the powder", height, 3},
+    {"coord.", "mean coordination number", contacts, 2},
+    {"rattl.", "rattlers", rattlers, 7},
+    {"p", "pressure p", p, 1},
+    {"wall", "radial pressure on the wall", wall, 5},
+    {"floor/p", "floor-to-punch force ratio", floor_ratio, 4},
+    {"unbal.", "unbalanced force", residual, 8},
+    {"t", "simulated time", die_time, 9},
+    {"steps", "time steps", evaluations, 11},
+    {"steps/s", "time steps/s", rate, 6},
+    {"elapsed", "elapsed time", elapsed_time, 10},
 };
 
 enum { DIE_ITEMS = sizeof die_items / sizeof die_items[0] };
 
-static const int die_weight[DIE_ITEMS] = {0, 4, 2, 1, 6, 5, 10, 3, 7, 8, 11, 9};
-
-/* The quantities of a run, and their order of importance. */
+/* The quantities of a run. */
 struct list {
     const struct panel_state_item *item;
-    const int *weight;
     int count;
 };
 
-static const struct list still = {still_items, still_weight, STILL_ITEMS},
-                         moving = {moving_items, moving_weight, MOVING_ITEMS},
-                         filling = {filling_items, filling_weight, FILLING_ITEMS},
-                         die = {die_items, die_weight, DIE_ITEMS};
+static const struct list still = {still_items, STILL_ITEMS},
+                         moving = {moving_items, MOVING_ITEMS},
+                         filling = {filling_items, FILLING_ITEMS},
+                         die = {die_items, DIE_ITEMS};
 
 static const struct list *list_of(const struct gb_session_shown *shown)
 {
@@ -440,18 +431,21 @@ panel_state_items_choose(const struct gb_session *session)
     const struct list *list = list_of(&shown);
     struct panel_state_choice choice = {.count = 0};
     struct gb_path path = {.count = 0};
-    int weighed = 0;
     if (!gb_loading_kind_follows_path(params) ||
         !gb_path_parse(&path, params->path, params->dimension, NULL)) {
         path.count = 0;
     }
     for (int i = 0; i < list->count; i++) {
-        if (applies(&list->item[i], params, &path)) {
-            choice.item[choice.count++] = &list->item[i];
+        const struct panel_state_item *item = &list->item[i];
+        int at = choice.count;
+        if (!applies(item, params, &path)) {
+            continue;
         }
-        if (applies(&list->item[list->weight[i]], params, &path)) {
-            choice.by_weight[weighed++] = &list->item[list->weight[i]];
+        choice.item[choice.count++] = item;
+        for (; at > 0 && choice.by_rank[at - 1]->rank > item->rank; at--) {
+            choice.by_rank[at] = choice.by_rank[at - 1];
         }
+        choice.by_rank[at] = item;
     }
     return choice;
 }
@@ -461,8 +455,8 @@ static bool is_of(const struct list *list, const struct panel_state_item *item)
     return item >= list->item && item < list->item + list->count;
 }
 
-/* Value of an item; "-" where there is none yet. */
-/* Items of a run without state: elapsed time, the residual, those of a die that is filled. */
+/* Value of an item; "-" where there is none yet.  Without a state there are elapsed time,
+ * residual and the items of a die that is filled. */
 static void panel_state_items_write(const struct panel_state_item *item,
                                     const struct gb_session_shown *shown, char *text,
                                     size_t size)
@@ -626,7 +620,7 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
         const int column = all ? i / each : i % columns;
         const int row = all ? i % each : i / columns;
         draw_item(paint, first + row, 1 + column * (width + gap), width,
-                  all ? choice->item[i] : choice->by_weight[i], shown);
+                  all ? choice->item[i] : choice->by_rank[i], shown);
     }
 }
 

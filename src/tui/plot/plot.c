@@ -11,6 +11,8 @@
 #include "base/alloc.h"
 #include "tui/term/paint.h"
 
+/* Plots in character cells: axes, the raster of dots, bands, the legend. */
+
 /* A candidate position of the legend. */
 struct box {
     int rows, columns; /* of entries */

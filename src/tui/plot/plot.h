@@ -7,6 +7,8 @@
 
 #include "greenbody/status.h"
 
+/* Plots in character cells, without curses, so that tests can compare the text. */
+
 /* Dots per character: 2 x 4 (braille), 1 x 2 (half blocks, which every console font has),
  * 1 x 2 by ' . : (ASCII). */
 enum gb_plot_glyphs { GB_PLOT_BRAILLE, GB_PLOT_BLOCK, GB_PLOT_ASCII, GB_PLOT_GLYPHS };
@@ -55,8 +57,6 @@ void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool l
 
 /* 0 at low, 1 at high; NaN for values without a logarithm on a logarithmic axis. */
 double gb_plot_axis_position(const struct gb_plot_axis *axis, double value);
-
-/* Plots in character cells, without curses, so that tests can compare the text. */
 
 /* Meaning of a cell; gb_paint_plot assigns the colours. */
 enum gb_plot_ink {

@@ -6,6 +6,8 @@
 
 #include "greenbody/snapshot.h"
 
+/* The packing as shaded spheres: colours, the walls of a die as outlines, the spheres. */
+
 /* How the view of the packing looks at it. */
 
 /* Share of the particles that the range covers. */

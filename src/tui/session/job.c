@@ -27,6 +27,9 @@
 #include "study/chart/chart.h"
 #include "tui/watch/runset_view.h"
 
+/* Jobs in the background.  A job is a command of this program as a child process; what it
+ * writes is read while it grows: moduli, the chart of settings, stability, replicas. */
+
 /* Seconds between two readings, or ten times the duration of one, whichever is longer. */
 static const double reread_s = 1.0;
 static const double share = 10.0;

@@ -221,8 +221,8 @@ static bool reached(const struct gb_session *session, double pressure_pa)
     struct gb_pressure_rows rows;
     gb_pressure_rows_list(&rows, session, false);
     for (int i = 0; i < rows.count; i++) {
-        const bool here = isfinite(
-            gb_pressure_rows_at(session, &rows.row[i], pressure_pa).density);
+        const bool here =
+            isfinite(gb_pressure_rows_at(session, &rows.row[i], pressure_pa).density);
         if (here || rows.row[i].kind == GB_PRESSURE_ROW_RUN) {
             return here;
         }

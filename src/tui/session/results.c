@@ -24,6 +24,9 @@
 #include "tui/session/session.h"
 #include "tui/term/pixels.h"
 
+/* Results of jobs as cards of a few lines.  A kind of result is a function that fills the
+ * card, and a row of the table at the end. */
+
 /* What a job in the background has found, as a few lines. */
 
 static void clear_line(void *data)

@@ -21,6 +21,8 @@
 #include "scene/loading_kind.h"
 #include "tui/session/session.h"
 
+/* A run from its start to the end of the program: its cost, its directory, who continues it. */
+
 /* Cheaper parameters for the stage that takes most.  A longer time step shortens every
  * stage, and auto may be longer than a given one. */
 static void write_advice(const struct gb_params *params, const struct gb_cost *cost,

@@ -14,6 +14,10 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term_tty.h"
 
+/* The session: edited parameters, the run and its quick cell, and what is shown of them.  In
+ * this order: the quick cell and the full run after it, results that are kept and shown
+ * again, what-ifs, snapshots taken for display, and the session itself. */
+
 /* The quick cell of a session, and the full run after it. */
 
 /* A live run of more computing time, s, past and to come, is not replaced

@@ -11,6 +11,8 @@
 
 #include "base/units.h"
 
+/* Drawing into a rectangle of cells: texts cut to the room, wrapped texts, plots, boxes. */
+
 /* Texts cut to the room there is.  A cut text ends with an ellipsis and never with a part
  * of a number: "mu 0.15" gives "mu ..." and not "mu 0.1..."; nor with a part of its unit.  Only a text that is one number
  * is cut among its decimals. */

@@ -9,6 +9,9 @@
 #include "tui/plot/sphere_shading.h"
 #include "tui/term/term.h"
 
+/* The packing, or a picture, as a pixel image for terminals with an image protocol, encoded
+ * by libchafa; without libchafa there are no images. */
+
 /* A PNG file as pixels for the terminal. */
 struct gb_png_pixels {
     int wide, high;
@@ -62,9 +65,6 @@ void gb_pixels_image_after(struct gb_term_image *image, struct gb_term *term,
 
 /* Whether a pending image may be drawn now. */
 bool gb_pixels_image_due(const struct gb_term_image *image, double now_s);
-
-/* The packing, or a picture, as a pixel image for terminals with an image protocol, encoded
- * by libchafa; without libchafa there are no images. */
 
 bool gb_pixels_available(void);
 

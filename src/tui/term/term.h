@@ -8,6 +8,10 @@
 #include "greenbody/status.h"
 #include "tui/term/settings.h"
 
+/* The terminal: taken over at the start and restored at every exit.  While curses uses
+ * it, standard output and standard error go to a log file. */
+struct gb_term;
+
 /* Longest text, bytes: its Base64 form and header are the 100,000 bytes that terminals
  * with a limit accept. */
 enum { GB_CLIPBOARD_MAX = 74994 };
@@ -17,10 +21,6 @@ enum { GB_CLIPBOARD_MAX = 74994 };
  * 768 bytes.  g_free.  Errors: GB_ERR_INPUT for a text that is empty or too long, or with
  * the clipboard off. */
 char *gb_term_clipboard_sequence(int clipboard, const char *text, struct gb_error *err);
-
-/* The terminal: taken over at the start and restored at every exit.  While curses uses
- * it, standard output and standard error go to a log file. */
-struct gb_term;
 
 /* Sends a text to the clipboard.  Whether the terminal accepts it is not reported by any
  * terminal.  Inside of tmux the text becomes its newest paste buffer, too.  Errors: as

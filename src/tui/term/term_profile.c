@@ -159,11 +159,10 @@ static void print_terminal(FILE *out, const struct gb_term_profile *profile,
     static const char *const backgrounds[] = {"a light and a dark background",
                                               "a light background", "a dark background",
                                               "high contrast, white on black"};
-    gb_visible_print(out, "theme      for %s (COLORFGBG=%s, --theme=%s)\n",
-                     backgrounds[gb_term_theme_resolve(profile->theme,
-                                                       getenv("COLORFGBG"))],
-                     from_env("COLORFGBG"),
-                     gb_settings_word(settings, "theme"));
+    gb_visible_print(
+        out, "theme      for %s (COLORFGBG=%s, --theme=%s)\n",
+        backgrounds[gb_term_theme_resolve(profile->theme, getenv("COLORFGBG"))],
+        from_env("COLORFGBG"), gb_settings_word(settings, "theme"));
     gb_visible_print(out, "plots      %s\n", graph);
     gb_visible_print(out, "mouse      %s, terminfo knows it: %s\n",
                      gb_settings_word(settings, "mouse"), yes_no(profile->can_mouse));
@@ -174,8 +173,9 @@ static void print_terminal(FILE *out, const struct gb_term_profile *profile,
                          : "none, the packing is drawn in cells",
                      yes_no(gb_pixels_available()), gb_settings_word(settings, "images"));
     static const char *const clipboards[] = {"", "OSC 52", "OSC 52 and tmux",
-                                       "OSC 52 through screen", "none"};
-    gb_visible_print(out, "clipboard  %s (--clipboard=%s)\n", clipboards[profile->clipboard],
+                                             "OSC 52 through screen", "none"};
+    gb_visible_print(out, "clipboard  %s (--clipboard=%s)\n",
+                     clipboards[profile->clipboard],
                      gb_settings_word(settings, "clipboard"));
     gb_visible_print(out, "frames     at most %d a second\n", settings->slow ? 2 : 10);
 }

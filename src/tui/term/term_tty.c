@@ -16,6 +16,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+/* The terminal apart from curses: its log file, and what a crash leaves behind. */
+
 enum { TAIL_BYTES = 1024 };
 
 void gb_term_tty_tail_init(struct gb_stderr_tail *stderr_tail)

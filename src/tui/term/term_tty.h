@@ -8,6 +8,8 @@
 
 #include "greenbody/status.h"
 
+/* The terminal apart from curses: redirection and choice of the type. */
+
 /* Messages of libraries and drivers on standard error go to the log while the screen is
  * open; the newest line is shown among the events. */
 struct gb_stderr_tail {
@@ -36,8 +38,6 @@ void gb_term_tty_crash_remove(void);
 /* The run directory; the message names its last checkpoint, if there is one.  Copied;
  * NULL: none. */
 void gb_term_tty_crash_set_run(const char *directory);
-
-/* The terminal apart from curses: redirection and choice of the type. */
 
 /* Path of the log file; g_free. */
 char *gb_term_tty_log(void);

@@ -11,6 +11,8 @@
 #include "tui/term/paint.h"
 #include "tui/view/view_legs.h"
 
+/* The view of the curve: branches of the run, what lies over them, axes and legend. */
+
 /* Branches of the run's curve: loading, unloading, and the stages of a dynamic run. */
 
 enum {

@@ -73,8 +73,7 @@ static double highest_pa(const struct gb_session *session)
 /* Pressures of the samples, inside the typed range. */
 static bool take_pressures(struct view *view)
 {
-    const struct gb_plot_range *typed =
-        &view->panel->ranges.of[GB_PLOT_RANGE_PRESSURE];
+    const struct gb_plot_range *typed = &view->panel->ranges.of[GB_PLOT_RANGE_PRESSURE];
     double high = highest_pa(view->session);
     double low = high / log_range;
     if (typed->typed) {
@@ -83,8 +82,8 @@ static bool take_pressures(struct view *view)
     }
     for (int k = 0; k < SAMPLES; k++) {
         const double share = (double)k / (SAMPLES - 1);
-        view->pressure_pa[k] = view->panel->log ? low * pow(high / low, share)
-                                                : low + share * (high - low);
+        view->pressure_pa[k] =
+            view->panel->log ? low * pow(high / low, share) : low + share * (high - low);
     }
     return high > low && low > 0.0;
 }
@@ -109,7 +108,8 @@ static void style(const struct view *view, struct difference *curve)
         break;
     case GB_PRESSURE_ROW_RUN:
     case GB_PRESSURE_ROW_PREVIOUS: {
-        const struct gb_curve_label *label = &session->previous[curve->row.previous].label;
+        const struct gb_curve_label *label =
+            &session->previous[curve->row.previous].label;
         curve->ink = gb_views_curve_ink(label->colour);
         curve->marker = label->marker;
         break;
@@ -196,8 +196,8 @@ static void draw_axes(struct view *view)
                            &panel->plot, x);
     gb_panel_plot_ranges_y(&panel->ranges, GB_PLOT_RANGE_DIFFERENCE, 1.0, &panel->plot,
                            y);
-    gb_plot_axes(&panel->plot, x, y, GB_PLOT_LINEAR, gb_view_curve_unit_label(view->unit_pa),
-                 "density - run");
+    gb_plot_axes(&panel->plot, x, y, GB_PLOT_LINEAR,
+                 gb_view_curve_unit_label(view->unit_pa), "density - run");
 }
 
 /* A level from the first pressure to the last. */
@@ -246,13 +246,12 @@ static void draw_measured(const struct view *view)
                                               .y = (double[]){y - dy, y + dy},
                                               .count = 2,
                                               .ink = GB_PLOT_INK_TEXT});
-        gb_plot_line(&view->panel->plot,
-                     &(struct gb_plot_series){.x = &x,
-                                              .y = &y,
-                                              .count = 1,
-                                              .ink = GB_PLOT_INK_TEXT,
-                                              .marker = MARK_MEASURED,
-                                              .points = true});
+        gb_plot_line(&view->panel->plot, &(struct gb_plot_series){.x = &x,
+                                                                  .y = &y,
+                                                                  .count = 1,
+                                                                  .ink = GB_PLOT_INK_TEXT,
+                                                                  .marker = MARK_MEASURED,
+                                                                  .points = true});
     }
 }
 

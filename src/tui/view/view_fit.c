@@ -169,7 +169,7 @@ static void draw_axes(struct view *view)
     panel->unit_pa = 1e6 * view->unit_mpa;
     double x_ends[2] = {points->density[0], points->density[points->count - 1]};
     double y_ends[2] = {panel->log ? points->pressure[0] / view->unit_mpa : 0.0,
-                              highest / view->unit_mpa};
+                        highest / view->unit_mpa};
     panel->plot.foot = view->entries - first_listed(view);
     gb_panel_plot_ranges_x(&panel->ranges, GB_PLOT_RANGE_DENSITY, 1.0, &panel->plot,
                            x_ends);
@@ -198,8 +198,7 @@ void gb_view_fit_draw(struct gb_panel_plot *panel, const struct gb_session *sess
     const bool ended = shown.state >= GB_RUN_DONE;
     if (!gb_panel_plot_reserve(panel, MAX(shown.points, SAMPLES)) ||
         !gb_results_fits_update(&panel->fits, shown.curve, shown.points,
-                                    ended ? GB_COMPACTION_PROFILE
-                                          : GB_COMPACTION_LINEAR)) {
+                                ended ? GB_COMPACTION_PROFILE : GB_COMPACTION_LINEAR)) {
         const struct gb_compaction_cache *cache = &panel->fits;
         gb_plot_text(&panel->plot, panel->plot.rows / 2, 2, GB_PLOT_INK_TEXT,
                      cache->reason.code != GB_OK ? cache->reason.text

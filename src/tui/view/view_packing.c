@@ -35,8 +35,8 @@ static void put_outline(struct gb_plot_cell *cell, float above, float below)
     cell->ch = is_outline(above) && is_outline(below) ? 0x2588
                : is_outline(above)                    ? 0x2580
                                                       : 0x2584;
-    cell->back = behind < 0.0F || is_outline(behind) ? 0
-                                                     : level(behind, GB_PLOT_SHADES) + 1;
+    cell->back =
+        behind < 0.0F || is_outline(behind) ? 0 : level(behind, GB_PLOT_SHADES) + 1;
 }
 
 /* A half block shows two dots of a cell: foreground above, background below. */
@@ -118,7 +118,8 @@ static void write_legend(struct gb_panel_plot *panel, const struct gb_view_sampl
 enum caption { CAPTION_CORNER, CAPTION_BELOW };
 
 /* The caption: two short lines in the corner, or one below an image. */
-static void write_caption(struct gb_panel_plot *panel, const struct gb_view_sample *sample,
+static void write_caption(struct gb_panel_plot *panel,
+                          const struct gb_view_sample *sample,
                           const struct gb_params *params, enum caption caption)
 {
     struct gb_plot *plot = &panel->plot;
@@ -202,7 +203,8 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
     if (shade == NULL) {
         return;
     }
-    gb_sphere_shading_render(shown.sample, &panel->look, 2 * plot->rows, plot->cols, shade);
+    gb_sphere_shading_render(shown.sample, &panel->look, 2 * plot->rows, plot->cols,
+                             shade);
     const bool ascii = plot->glyphs == GB_PLOT_ASCII;
     for (int r = 0; r < plot->rows; r++) {
         for (int c = 0; c < plot->cols; c++) {

@@ -87,8 +87,9 @@ static const struct gb_plot_view views[] = {
         .key = "8",
         .help = "contact law: bridge strength",
         .title = "Bridge strength",
-        .hint = "bridge strength: normal stress of partial failure, at h = 0 of full failure; "
-                "dim: law of the run",
+        .hint =
+            "bridge strength: normal stress of partial failure, at h = 0 of full failure; "
+            "dim: law of the run",
         .options = GB_VIEW_INSET,
         .draw = gb_view_law_strength,
         .applies = has_rod_law,
@@ -98,8 +99,9 @@ static const struct gb_plot_view views[] = {
         .key = "9",
         .help = "the packing itself",
         .title = "Packing",
-        .hint = "darker with depth; Tab to this pane: arrows turn it, Home to the front; F "
-                "colours it",
+        .hint =
+            "darker with depth; Tab to this pane: arrows turn it, Home to the front; F "
+            "colours it",
         .need = GB_VIEW_NEEDS_SAMPLE,
         .draw = gb_view_packing_draw,
         .navigate = gb_view_packing_navigate,
@@ -118,8 +120,9 @@ static const struct gb_plot_view views[] = {
         .key = "T",
         .help = "stability of the methods of this scene: X",
         .title = "Stability of the methods",
-        .hint = "longest stable step over the step taken, by pressure; below 1: unstable; "
-                "Left and Right, Enter applies",
+        .hint =
+            "longest stable step over the step taken, by pressure; below 1: unstable; "
+            "Left and Right, Enter applies",
         .need = GB_VIEW_NEEDS_STABILITY,
         .abscissa = GB_VIEW_SETTINGS,
         .draw = gb_view_chart_stability,
@@ -130,8 +133,9 @@ static const struct gb_plot_view views[] = {
         .key = "K",
         .help = "density differences to the run, over pressure",
         .title = "Density difference to the run",
-        .hint = "each curve minus the run at equal pressure; band: twice the scatter of a "
-                "difference; L log or linear",
+        .hint =
+            "each curve minus the run at equal pressure; band: twice the scatter of a "
+            "difference; L log or linear",
         .options = GB_VIEW_PRESSURE_ACROSS,
         .draw = gb_view_difference_draw,
     },

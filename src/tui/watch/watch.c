@@ -14,6 +14,9 @@
 #include "tui/watch/reread_loop.h"
 #include "tui/watch/runset_view.h"
 
+/* The screen of many runs: four views with a row each, the keys, and the loop that reads the
+ * files again. */
+
 enum { MIN_ROWS = 12, MIN_COLS = 40, LAST_ASCII = 126 };
 
 /* The screen of many runs, read-only: curves as means with bands, a map over two varied
