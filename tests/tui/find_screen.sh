@@ -85,7 +85,7 @@ keys undo
 shows "typing filters keys" '│ u <  *undo the last change'
 hides "others are gone" 'Moving'
 keys C-u rattler
-shows "and the glossary" 'a particle with fewer contacts than equilibrium takes'
+shows "and the glossary" 'a particle with fewer contacts than equilibrium needs'
 shows "below its heading" '│ Particles and contacts'
 keys C-u springback
 shows "a word" '│ springback'

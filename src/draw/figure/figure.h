@@ -11,7 +11,7 @@
 #include "greenbody/status.h"
 
 /* Colours of the curves of figures, sRGB: sky blue, orange, green, purple, red, blue, the
- * hues of the workbench (tui/term/term_theme.c) in its order.  Two of them, or one and
+ * hues of the workbench (tui/term/term.c) in its order.  Two of them, or one and
  * black, differ by 14 at least in CIEDE2000, also for protanopia, deuteranopia and tritanopia
  * (matrices of Machado et al. 2009); contrast with white 2.8 at least.
  * tests/draw/test_figure_colours.c computes both. */

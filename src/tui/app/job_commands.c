@@ -534,8 +534,8 @@ void gb_job_commands_accept_calibrate(struct gb_app *app)
         gb_dialog_close(dialog);
         return;
     }
-    if (!gb_calibration_keys(&parsed, gb_dialog_answer(dialog), gb_session_params(session),
-                            &err)) {
+    if (!gb_calibration_keys(&parsed, gb_dialog_answer(dialog),
+                             gb_session_params(session), &err)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
         return;
     }

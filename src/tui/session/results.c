@@ -529,7 +529,7 @@ static bool read_lines(struct gb_result_card *card)
         if (lines[i][0] != '\0') {
             results_card_add(card,
                              gb_calibration_warns(lines[i]) ? GB_RESULT_WARNING
-                                                                  : GB_RESULT_VALUE,
+                                                            : GB_RESULT_VALUE,
                              "%s", g_strstrip(lines[i]));
         }
     }
