@@ -13,11 +13,13 @@ extern "C" {
 
 /* Contact laws by name, as `greenbody law` prints them. */
 
-/* Of law `index` (0, 1, ...): name, meaning (lines end with '\n'), columns of its rows
- * ("h,f,k"), name of its variable (NULL: one row without a variable); NULL behind the
- * last. */
+/* Name of law `index` (0, 1, ...) and its meaning, whose lines end with '\n'.  NULL after
+ * the last law. */
 const char *gb_contact_law_name(size_t index);
 const char *gb_contact_law_doc(size_t index);
+
+/* Columns of the rows of a law ("h,f,k"), and the name of its variable.  The variable is
+ * NULL for a law with one row and no variable.  Both are NULL for an unknown law. */
 const char *gb_contact_law_columns(const char *law);
 const char *gb_contact_law_variable(const char *law);
 
@@ -26,13 +28,13 @@ enum gb_contact_law_history {
     GB_CONTACT_LAW_PATH /* one contact with its history, in steps from value to value */
 };
 
-/* What a law is evaluated for. */
+/* The points at which to evaluate a law. */
 struct gb_contact_law_request {
     size_t size;         /* sizeof(struct gb_contact_law_request), set by the caller */
     const char *law;     /* "normal" */
-    const char *lattice; /* of law "lattice": "sc", "fcc", "bcc", "diamond"; else NULL */
-    const double *x;     /* values of the variable; unit as the columns say */
-    size_t count;        /* 0 of a law without a variable */
+    const char *lattice; /* for law "lattice": "sc", "fcc", "bcc", "diamond"; else NULL */
+    const double *x;     /* values of the variable, in the unit of its column */
+    size_t count;        /* number of x; 0 for a law without a variable */
     double h_min;        /* deepest overlap of a bridge so far, d; NaN: not given */
     int history;         /* enum gb_contact_law_history */
 };
@@ -40,10 +42,10 @@ struct gb_contact_law_request {
 /* Rows of a request; 0 for an unknown law. */
 size_t gb_contact_law_rows(const struct gb_contact_law_request *request);
 
-/* Computes all rows into out, rows x columns.
+/* Computes all rows into out, row by row.
  *
  * room   numbers that out can hold
- * Errors: GB_ERR_INPUT with key, law or value and what is accepted. */
+ * Errors: GB_ERR_INPUT naming the key, law or value and what is expected. */
 bool gb_contact_law_compute(const struct gb_contact_law_request *request,
                             const struct gb_parameters *parameters, double *out,
                             size_t room, struct gb_error *err);

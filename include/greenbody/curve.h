@@ -11,8 +11,8 @@
 extern "C" {
 #endif
 
-/* Append-only list of points.  One writer; any number of readers may read every point
- * below gb_curve_count at any time without a lock: points never move and never change. */
+/* Append-only list of points for one writer and any number of readers.  Readers need no
+ * lock for points below gb_curve_count, because points never move and never change. */
 struct gb_curve;
 
 /* An empty curve.  Errors: GB_ERR_MEMORY. */

@@ -1,9 +1,8 @@
 #ifndef GREENBODY_DIMENSION_H
 #define GREENBODY_DIMENSION_H
 
-/* Physical dimension of a number in a preset or on the screen, and the units in which it
- * may be written.  In memory every number is SI.  A unit of another dimension is an
- * error. */
+/* Physical dimension of a number in a preset or on the screen, with its possible units.
+ * Numbers in memory are in SI units.  A unit of another dimension is an error. */
 enum gb_dimension {
     GB_DIM_NONE,         /* pure number; no unit */
     GB_DIM_FRACTION,     /* "0.1 %" or "0.001" */

@@ -1,15 +1,15 @@
 #ifndef GREENBODY_GREENBODY_H
 #define GREENBODY_GREENBODY_H
 
-/* The library of greenbody: cold compaction of powders by discrete elements.  The page
- * docs/library.md shows it by examples.
+/* The library of greenbody: cold compaction of powders by discrete elements.
+ * docs/library.md has examples.
  *
- * It keeps no state of its own between objects, never prints, exits or installs a signal
- * handler; a call that fails returns a value and fills a struct gb_error.
+ * The library has no global state.  It never prints, exits or installs a signal
+ * handler.  A function that fails returns false and fills a struct gb_error.
  *
  * Every function checks its arguments.  A missing object, text or result (NULL) is
- * GB_ERR_INPUT.  A function without an error returns NULL, 0 or false then, and one without
- * a result does nothing. */
+ * GB_ERR_INPUT.  Functions that report no error return NULL, 0 or false in this case;
+ * functions that return nothing do nothing. */
 #include "greenbody/array.h"
 #include "greenbody/contact_law.h"
 #include "greenbody/outcome.h"
@@ -28,8 +28,8 @@ extern "C" {
 const char *gb_library_version(void);
 
 /* Member `index` of struct gb_point, for other languages: its name ("p_pa"), offset in
- * bytes, numbers in it, and type 'd' (double), 'q' (int64_t) or 'i' (int).  False after the
- * last.  A result that is not needed may be NULL. */
+ * bytes, count of numbers, and type 'd' (double), 'q' (int64_t) or 'i' (int).  False
+ * after the last.  Pass NULL for a result that you do not need. */
 bool gb_library_point_member(size_t index, const char **name, size_t *offset,
                              size_t *count, char *type);
 

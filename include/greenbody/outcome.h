@@ -7,11 +7,11 @@ extern "C" {
 
 /* How an advance of a run has ended. */
 enum gb_run_outcome {
-    GB_RUN_OUTCOME_NONE,      /* not at the end of the run */
-    GB_RUN_OUTCOME_DONE,      /* the loading program has ended */
-    GB_RUN_OUTCOME_STOPPED,   /* by a guard, or not converged; results kept */
-    GB_RUN_OUTCOME_CANCELLED, /* on request; results kept */
-    GB_RUN_OUTCOME_FAILED     /* no memory, bad input, or a directory not writable */
+    GB_RUN_OUTCOME_NONE,      /* the run has not ended */
+    GB_RUN_OUTCOME_DONE,      /* the loading is complete */
+    GB_RUN_OUTCOME_STOPPED,   /* by a guard, or not converged; results are kept */
+    GB_RUN_OUTCOME_CANCELLED, /* on request; results are kept */
+    GB_RUN_OUTCOME_FAILED     /* out of memory, bad input, or no permission to write */
 };
 
 #ifdef __cplusplus

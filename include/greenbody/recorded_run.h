@@ -12,29 +12,32 @@
 extern "C" {
 #endif
 
-/* A run directory, read: of a finished run, or of one under way as far as it is written. */
+/* A run directory that has been read.  If the run is still going, it has the points
+ * written so far. */
 struct gb_recorded_run;
 
-/* Errors: GB_ERR_INPUT (no run directory, a damaged file), GB_ERR_MACHINE. */
+/* Reads a run directory.  Errors: GB_ERR_INPUT (no run directory, a damaged file),
+ * GB_ERR_MACHINE. */
 bool gb_recorded_run_open(struct gb_recorded_run **out, const char *directory,
                           struct gb_error *err);
 void gb_recorded_run_destroy(struct gb_recorded_run *run); /* NULL is fine */
 
-/* "running", "done", "stopped", "failed", ..., and why; "" where there is no reason. */
+/* State ("running", "done", "stopped", "failed", ...) and its reason, or "". */
 const char *gb_recorded_run_state(const struct gb_recorded_run *run);
 const char *gb_recorded_run_reason(const struct gb_recorded_run *run);
 
-/* Rows of curve.csv, with its digits; a row lives as long as the run.  NULL after the last. */
+/* Number of rows of curve.csv, and row `index` with the digits of the file.  A row is
+ * valid until gb_recorded_run_destroy.  NULL after the last. */
 size_t gb_recorded_run_points(const struct gb_recorded_run *run);
 const struct gb_point *gb_recorded_run_point(const struct gb_recorded_run *run,
                                              size_t index);
 
-/* A copy of the parameters, which the caller destroys. */
+/* Copies the parameters; the caller destroys the copy. */
 bool gb_recorded_run_parameters(const struct gb_recorded_run *run,
                                 struct gb_parameters **out, struct gb_error *err);
 
-/* Path of kept state `index` in the order of the run, for gb_saved_state_load; NULL behind the
- * last, which is the state of the last checkpoint (state.h5). */
+/* Path of kept state `index`, in the order of the run, for gb_saved_state_load.  The last
+ * one is the last checkpoint (state.h5).  NULL after it. */
 const char *gb_recorded_run_saved(const struct gb_recorded_run *run, size_t index);
 
 #ifdef __cplusplus

@@ -13,24 +13,26 @@
 extern "C" {
 #endif
 
-/* A packing read from a file: state.h5 or a kept state of a run directory, or what
- * gb_simulation_save has written. */
+/* A packing that was read from a file: state.h5 or a kept state of a run directory, or a
+ * file of gb_simulation_save. */
 struct gb_saved_state;
 
-/* Errors: GB_ERR_MACHINE (cannot be opened), GB_ERR_INPUT (not a state), naming the path. */
+/* Reads a state.  Errors, which name the path: GB_ERR_MACHINE (cannot be opened),
+ * GB_ERR_INPUT (not a state). */
 bool gb_saved_state_load(struct gb_saved_state **out, const char *path,
                          struct gb_error *err);
 void gb_saved_state_destroy(struct gb_saved_state *saved); /* NULL is fine */
 
-/* Its measures; lives as long as the object. */
+/* The recorded point of this state; valid until gb_saved_state_destroy. */
 const struct gb_point *gb_saved_state_point(const struct gb_saved_state *saved);
-/* Title of the preset and seed of its run. */
+/* Title of the preset, and seed of the run. */
 const char *gb_saved_state_title(const struct gb_saved_state *saved);
 uint64_t gb_saved_state_seed(const struct gb_saved_state *saved);
 
-/* An array by its name (gb_array_name); it lives as long as the object.  In a file positions
- * lie inside of the periodic cell, and a die stands in a box from 0.  Errors: GB_ERR_INPUT
- * for an unknown name (err lists them) or one that the state has not, GB_ERR_MEMORY. */
+/* An array by its name (gb_array_name); valid until gb_saved_state_destroy.  Positions
+ * are inside the periodic cell.  A die is in a box whose corner is the origin.
+ * Errors: GB_ERR_INPUT for an unknown name (err lists the names) or an array that the
+ * state lacks, GB_ERR_MEMORY. */
 bool gb_saved_state_array(struct gb_saved_state *saved, const char *name,
                           struct gb_array *array, struct gb_error *err);
 

@@ -11,9 +11,9 @@ extern "C" {
 enum gb_stage {
     GB_STAGE_NONE, /* a run without stages, or after the last one */
     GB_STAGE_FILLING,
-    GB_STAGE_SETTLING, /* poured, not at rest yet; again under the lower gravity */
-    GB_STAGE_EASING,   /* gravity falls to its value in flattening */
-    GB_STAGE_RESETTLING,
+    GB_STAGE_SETTLING,   /* poured, but not yet at rest */
+    GB_STAGE_EASING,     /* gravity falls to its value for flattening */
+    GB_STAGE_RESETTLING, /* under the lower gravity */
     GB_STAGE_FLATTENING,
     GB_STAGE_LIFTING, /* of the flattening punch */
     GB_STAGE_RESTING,
@@ -22,7 +22,7 @@ enum gb_stage {
     GB_STAGE_WITHDRAWAL, /* of the punch */
     GB_STAGE_CONFINED,   /* rest in the die */
     GB_STAGE_EJECTION,
-    GB_STAGE_EJECTED, /* rest outside */
+    GB_STAGE_EJECTED, /* rest outside the die */
     GB_STAGES
 };
 
@@ -30,25 +30,25 @@ enum gb_stage {
 enum gb_stage_measure {
     GB_STAGE_MEASURE_NONE,
     GB_STAGE_MEASURE_POURED,     /* particles below the funnel */
-    GB_STAGE_MEASURE_KINETIC,    /* energy over that at rest */
-    GB_STAGE_MEASURE_UNBALANCED, /* force over that at rest */
-    GB_STAGE_MEASURE_GRAVITY,    /* over that at rest */
+    GB_STAGE_MEASURE_KINETIC,    /* kinetic energy / its limit at rest */
+    GB_STAGE_MEASURE_UNBALANCED, /* unbalanced force / its limit at rest */
+    GB_STAGE_MEASURE_GRAVITY,    /* gravity / gravity at rest */
     GB_STAGE_MEASURE_TRAVEL,     /* of the punch or of the compact, m */
     GB_STAGE_MEASURE_PRESSURE,   /* of the punch, Pa */
     GB_STAGE_MEASURE_TIME,       /* simulated, s */
     GB_STAGE_MEASURES
 };
 
-/* Where a run is before, between and after its recorded points.  NaN: not known. */
+/* Progress of a run before, between and after its recorded points.  NaN: unknown. */
 struct gb_stage_report {
     enum gb_stage stage;
     enum gb_stage_measure measure;
     double value, goal; /* of the measure; the stage ends near the goal */
-    double share;       /* of the stage, 0..1 */
-    /* Share done of the part of the run whose simulated time is fixed, 0..1; NaN before it
-     * has begun: powder comes to rest when it does. */
+    double share;       /* fraction of the stage that is done, 0..1 */
+    /* Fraction done of the stages with a fixed simulated time, 0..1.  NaN before them,
+     * because the time until the powder is at rest is unknown. */
     double timed;
-    int64_t poured;
+    int64_t poured;  /* particles */
     double time_s;   /* simulated, since the start */
     double height_m; /* of the powder in the die */
     double kinetic_j;
