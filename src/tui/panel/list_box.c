@@ -35,7 +35,7 @@ bool gb_list_box_matches(char **words, const char *text)
 void gb_list_box_search(struct gb_list_box *list, int total,
                         int (*rank)(void *data, int item, char **words), void *data)
 {
-    int *ranks = g_new(int, (gsize)total + 1);
+    int *scores = g_new(int, (gsize)total + 1);
     char *folded = g_utf8_casefold(gb_prompt_text(&list->filter), -1);
     char **words = g_strsplit(folded, " ", -1);
     list->item = g_renew(int, list->item, (gsize)total + 1);
@@ -43,18 +43,18 @@ void gb_list_box_search(struct gb_list_box *list, int total,
     for (int i = 0; i < total; i++) {
         const int own = rank(data, i, words);
         int at = own > 0 ? list->count++ : -1;
-        for (; at > 0 && ranks[at - 1] < own; at--) {
-            ranks[at] = ranks[at - 1];
+        for (; at > 0 && scores[at - 1] < own; at--) {
+            scores[at] = scores[at - 1];
             list->item[at] = list->item[at - 1];
         }
         if (at >= 0) {
-            ranks[at] = own;
+            scores[at] = own;
             list->item[at] = i;
         }
     }
     g_strfreev(words);
     g_free(folded);
-    g_free(ranks);
+    g_free(scores);
 }
 
 static int item_of(const struct gb_list_box *list, int row)
@@ -134,7 +134,8 @@ enum gb_list_box_event gb_list_box_handle(struct gb_list_box *list,
 /* --- drawing ---------------------------------------------------------------------- */
 
 /* First column of cells and width of a column of the list. */
-static int place(const struct gb_list_box_look *look, int cols, int column, int *width)
+static int column_start(const struct gb_list_box_look *look, int cols, int column,
+                        int *width)
 {
     int fixed = 0, col = 0;
     for (int k = 0; k < look->columns; k++) {
@@ -154,7 +155,7 @@ static void draw_cell(const struct gb_paint *paint, const struct gb_list_box_loo
                       int row, int column, enum gb_style style, const char *text)
 {
     int width = 0;
-    const int col = place(look, paint->rect.cols, column, &width);
+    const int col = column_start(look, paint->rect.cols, column, &width);
     width -= column + 1 < look->columns && !look->column[column].tight;
     if (look->column[column].right) {
         gb_paint_text(paint, row, col + width - gb_paint_width(text), style, text);
@@ -230,6 +231,6 @@ struct gb_rect gb_list_box_cell(const struct gb_list_box *list,
                                 const struct gb_list_box_look *look, int column)
 {
     struct gb_rect rect = {(look->titled ? 1 : 0) + list->focus - list->top, 0, 1, 0};
-    rect.col = place(look, paint->rect.cols, column, &rect.cols);
+    rect.col = column_start(look, paint->rect.cols, column, &rect.cols);
     return rect;
 }
