@@ -630,8 +630,8 @@ static void test_elsewhere(void)
     struct gb_ensemble ensemble;
     struct gb_error err = {0};
     struct waiting waiting = {0};
-    const struct gb_ensemble_callbacks callbacks = {
-        .on_wait = on_wait, .data = &waiting, .patience_s = 0.1};
+    struct gb_ensemble_callbacks callbacks = {
+        .on_wait = on_wait, .data = &waiting, .patience_s = 3600.0};
     add(&axes, "contact.mu=0.1");
     make(&ensemble, &axes, 3, "elsewhere");
     waiting.holder = hold(ensemble.run[0].directory); /* all that is found at first */
@@ -641,6 +641,7 @@ static void test_elsewhere(void)
     g_assert_true(ensemble.run[0].elsewhere && !ensemble.run[0].ended);
     g_assert_cmpuint(gb_ensemble_refresh(&ensemble), ==, 1);
     ensemble.leaves = false; /* nothing but that one is left */
+    callbacks.patience_s = 0.1;
     g_assert_true(work(&ensemble, 2, stand_in, &callbacks, &err));
     g_assert_cmpint(waiting.calls, ==, 1);
     g_assert_true(waiting.run == &ensemble.run[0]);
