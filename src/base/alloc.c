@@ -29,8 +29,7 @@ static bool must_fail(void)
 static struct head *allocate(size_t total)
 {
     const bool large = total >= LARGE;
-    char *memory =
-        large ? calloc(1, total + ALIGNMENT) : aligned_alloc(ALIGNMENT, total);
+    char *memory = large ? calloc(1, total + ALIGNMENT) : aligned_alloc(ALIGNMENT, total);
     if (!memory) {
         return NULL;
     }

@@ -247,7 +247,8 @@ char *gb_units_comma(const char *text, char *buffer, size_t size)
 {
     struct literal literal;
     buffer[0] = '\0';
-    if (scan(text, &literal) && literal.end[0] == ',' && g_ascii_isdigit(literal.end[1])) {
+    if (scan(text, &literal) && literal.end[0] == ',' &&
+        g_ascii_isdigit(literal.end[1])) {
         const bool once = strchr(literal.end + 1, ',') == NULL &&
                           memchr(literal.start, '.', literal.length) == NULL;
         snprintf(buffer, size, "decimals have a point, thousands no mark%s%.*s%s%.40s",

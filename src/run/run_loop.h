@@ -6,8 +6,8 @@
 
 #include "greenbody/outcome.h"
 #include "greenbody/snapshot.h"
-#include "run/experiment.h"
 #include "run/cost.h"
+#include "run/experiment.h"
 #include "run/record/run_recorder.h"
 
 /* The loop of a run, from the built packing to the last file: it advances the experiment

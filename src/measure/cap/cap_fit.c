@@ -29,14 +29,10 @@ enum { SIDE_FREE = 2 }; /* R and p_a */
 struct cap_side_found {
     double r, p_a;
     double cov[SIDE_FREE][SIDE_FREE]; /* of R and p_a, the line given */
-    double squares;                                 /* weighted */
+    double squares;                   /* weighted */
 };
 
-enum {
-    SIDE_SIZE = SIDE_FREE,
-    ITERATIONS = 200,
-    SIDE_REWEIGHTINGS = 4
-};
+enum { SIDE_SIZE = SIDE_FREE, ITERATIONS = 200, SIDE_REWEIGHTINGS = 4 };
 
 /* The cap through points, beside a given shear failure line. */
 struct problem {

@@ -48,7 +48,7 @@ static void prepare_block(void *data, int64_t b)
     gb_list_check_measure(engine, b);
     if (gb_engine_is_f32(engine)) {
         gb_f32_state_particles(engine, gb_blocks_begin(count, b),
-                                 gb_blocks_end(count, b));
+                               gb_blocks_end(count, b));
     }
 }
 

@@ -8,7 +8,7 @@ struct gb_tally {
     int64_t contacts;  /* pairs with r < d */
     int64_t sliding;   /* contacts with the shear spring at its cap */
     double normal_sum; /* sum of |f_n| over contacts, E d^2 */
-    double deepest;    /* largest overlap, in diameters of the smaller particle of a pair */
+    double deepest; /* largest overlap, in diameters of the smaller particle of a pair */
     /* dynamic scenes: */
     double absorbed;  /* work absorbed by the pairs since the last evaluation, E d^3 */
     double virial[3]; /* sum of f_k r_k over pairs, axis by axis (x, y, z), E d^3 */

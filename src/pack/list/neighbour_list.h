@@ -43,7 +43,7 @@ struct gb_pair_list {
     int32_t *first; /* i of each pair */
     int32_t *other; /* j of each pair */
     uint8_t *image; /* periodic image of j; index of gb_neighbour_list.shift */
-    int32_t *row; /* patchable: row that sums the forces on j (pack/f32/f32_state.h) */
+    int32_t *row;   /* patchable: row that sums the forces on j (pack/f32/f32_state.h) */
     int64_t
         *in_start;    /* transposed: particles + 1: pairs with j as second particle ... */
     int32_t *in_slot; /* ... as indices k, ascending */

@@ -14,19 +14,19 @@ typedef void gb_equation_starts_function(const struct gb_equations_points *point
 
 gb_equation_starts_function gb_equations_start_cooper_eaton;
 
-typedef double gb_equation_models_density(const double *x, double pressure);
+typedef double gb_equation_density(const double *x, double pressure);
 
 /* x = a, b, D0 */
-gb_equation_models_density gb_equations_kawakita;
+gb_equation_density gb_equations_kawakita;
 
 /* x = a1, a2, k1, k2, D0 */
-gb_equation_models_density gb_equations_cooper_eaton;
+gb_equation_density gb_equations_cooper_eaton;
 
 /* x = tau, alpha, D0 */
-gb_equation_models_density gb_equations_adams;
+gb_equation_density gb_equations_adams;
 
 /* x = r_inf, K, n, D0 */
-gb_equation_models_density gb_equations_secondi;
+gb_equation_density gb_equations_secondi;
 
 /* The table of equations of compaction.  Each gives the relative density as a function of
  * the pressure, so that all are fitted to the same errors and can be compared.  An

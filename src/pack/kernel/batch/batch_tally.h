@@ -65,7 +65,7 @@ INLINE void tally_batch(struct terms t, BATCH *b, const real *deepest,
 #pragma omp simd reduction(+ : contacts) reduction(max : most)
     for (int k = 0; k < b->n; k++) {
         contacts += mask(deepest[k] >= 0); /* whole numbers: the same in any order */
-        const real h = b->overlap[k]; /* in D */
+        const real h = b->overlap[k];      /* in D */
         const real larger_inverse = larger(b->inverse[0][k], b->inverse[1][k]);
         most = larger(t.sized ? h * b->mean[k] * larger_inverse : h, most);
     }

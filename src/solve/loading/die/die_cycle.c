@@ -31,8 +31,8 @@ static bool top_is_supported(const struct gb_bed *bed, double gravity)
     return bed->force[highest][2] > GB_REST_SUPPORT_MIN * bed->mass[highest] * gravity;
 }
 
-struct gb_die_cycle_rest_state
-gb_die_cycle_rest_state(const struct gb_die_stages *stages, const struct gb_bed *bed)
+struct gb_die_cycle_rest_state gb_die_cycle_rest_state(const struct gb_die_stages *stages,
+                                                       const struct gb_bed *bed)
 {
     const bool pours = stages->now.stage == GB_DIE_STAGES_POUR;
     const double gravity = stages->now.leapfrog.gravity;
@@ -63,8 +63,7 @@ static void note_share(struct gb_die_progress *now,
 
 static bool at_rest(struct gb_die_stages *stages, const struct gb_bed *bed)
 {
-    const struct gb_die_cycle_rest_state rest =
-        gb_die_cycle_rest_state(stages, bed);
+    const struct gb_die_cycle_rest_state rest = gb_die_cycle_rest_state(stages, bed);
     note_share(&stages->now, &rest);
     return rest.kinetic < rest.kinetic_limit && rest.unbalanced < rest.unbalanced_limit &&
            top_is_supported(bed, stages->now.leapfrog.gravity);

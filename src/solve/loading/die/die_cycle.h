@@ -12,8 +12,8 @@ struct gb_die_cycle_rest_state {
     double kinetic, kinetic_limit, unbalanced, unbalanced_limit;
 };
 
-struct gb_die_cycle_rest_state
-gb_die_cycle_rest_state(const struct gb_die_stages *stages, const struct gb_bed *bed);
+struct gb_die_cycle_rest_state gb_die_cycle_rest_state(const struct gb_die_stages *stages,
+                                                       const struct gb_bed *bed);
 
 /* Particles above the die. */
 int64_t gb_die_cycle_in_funnel(const struct gb_bed *bed);

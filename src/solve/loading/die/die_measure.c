@@ -18,8 +18,7 @@ static void set(struct gb_stage_report *report, enum gb_stage_measure measure,
 static void set_rest(const struct gb_die_stages *stages, const struct gb_bed *bed,
                      struct gb_stage_report *report)
 {
-    const struct gb_die_cycle_rest_state rest =
-        gb_die_cycle_rest_state(stages, bed);
+    const struct gb_die_cycle_rest_state rest = gb_die_cycle_rest_state(stages, bed);
     const double kinetic = rest.kinetic / rest.kinetic_limit;
     const double unbalanced = rest.unbalanced / rest.unbalanced_limit;
     const bool forces = kinetic < 1.0 && unbalanced > 1.0 && isfinite(unbalanced);
