@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "figures/figures_means.h"
-
 const char *const gb_figures_after_loading[] = {"loading.hold", "loading.record_time",
                                                 NULL};
 

@@ -113,6 +113,10 @@ void gb_figures_axes(const struct gb_figures_row *row, struct gb_series *series)
 bool gb_figures_run(const struct gb_figures_row *row, struct gb_series *series,
                     const struct gb_figures_input *input, struct gb_error *err);
 
+/* Computes a figure of means.  Errors: a missing column, no points. */
+bool gb_figures_means_compute(struct gb_series *series, const struct gb_runset *set,
+                              const struct gb_figures_mean *mean, struct gb_error *err);
+
 /* "doc (source)"; g_free. */
 char *gb_figures_describe(const struct gb_figures_row *row);
 /* Names of the figures that read all of these options (0: of all figures), separated by

@@ -1,6 +1,5 @@
 /* The usual figure: the mean of Y over X, one curve for each group of runs, with its standard
  * error.  Such a figure is a row with `mean`; what it shows besides is a function `more`. */
-#include "figures/figures_means.h"
 
 #include <math.h>
 #include <string.h>

@@ -33,9 +33,12 @@ static struct state state_at(const struct gb_yield_path *path,
         path->shear[row] - path->shear[0] - compliance[1][0] * p - compliance[1][1] * q};
 }
 
-static double measure_of(const struct state *state)
+/* Compacts stiffen under pressure, so that the compliance at the beginning overestimates the
+ * elastic strain of compression.  What is left is then opposite to the loading, and no flow. */
+static double measure_of(const struct state *state, double direction)
 {
-    return fmax(fabs(state->volume), fabs(state->shear));
+    const double along = state->volume * cos(direction) + state->shear * sin(direction);
+    return along > 0.0 ? fmax(fabs(state->volume), fabs(state->shear)) : 0.0;
 }
 
 static double between(double a, double b, double share)
@@ -51,7 +54,8 @@ static bool reach(const struct gb_yield_path *path,
     struct state before = state_at(path, elastic, 0);
     for (size_t i = 1; i < path->count; i++) {
         const struct state now = state_at(path, elastic, i);
-        const double low = measure_of(&before), high = measure_of(&now);
+        const double low = measure_of(&before, path->direction),
+                     high = measure_of(&now, path->direction);
         if (high >= level) {
             const double share = high > low ? (level - low) / (high - low) : 1.0;
             found->p = between(before.p, now.p, share);

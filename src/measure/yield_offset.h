@@ -25,7 +25,8 @@ bool gb_yield_offset_elastic(struct gb_yield_elastic *elastic, const double by_v
                              const double by_shear[2]);
 
 /* Where the plastic strain, total less elastic, first reaches the offset, as the larger of
- * |volume| and |shear|, by linear interpolation between rows.  Fills stresses (unit of the
+ * |volume| and |shear|, by linear interpolation between rows.  Strain that opposes the
+ * direction of loading does not count: it comes from an elastic response that stiffens.  Fills stresses (unit of the
  * path), flow and direction.  The flow is the increment of plastic strain while its measure
  * grows from GB_YIELD_FLOW_BEGIN to flow_end (1 or more) of the offset, or to the end of the
  * path.  False: the path ends before the offset. */

@@ -36,6 +36,17 @@ while read -r name; do
 done <names
 [ "$(wc -l <names)" -gt 5 ] || missing=1
 result "what the page names is there" $missing
+# a replica that stopped early is at another state: it is no part of the mean of ends
+cp -r "run 1" stopped
+sed -i 's/^seed *=.*/seed = 7/' stopped/preset.ini
+sed -i 's/"state" : "done"/"state" : "stopped"/' stopped/status.json
+sed -i '$d' stopped/curve.csv
+"$greenbody" report "run 1" stopped -o early >stdout 2>stderr &&
+    "$greenbody" report "run 1" -o alone >stdout 2>stderr
+tail -n 1 early/tables/ends.csv | cut -d, -f3- >one
+tail -n 1 alone/tables/ends.csv | cut -d, -f3- >two
+[ "$(wc -c <one)" -gt 10 ] && cmp -s one two
+result "ends without a run that stopped early" $?
 ! grep -q "http" out/index.html
 result "nothing comes from elsewhere" $?
 grep -q "^| run " out/report.md && grep -q "2 runs of 1 scene" out/report.md

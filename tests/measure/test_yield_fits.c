@@ -66,6 +66,32 @@ static void test_elastic(void)
     g_assert_false(gb_yield_offset_elastic(&refused, none, slope));
 }
 
+/* A compact that stiffens under compression takes less strain than its first stiffness says.
+ * That is no flow, until it yields: then the offset counts from there. */
+static void test_stiffening(void)
+{
+    double p[ROWS], q[ROWS], v[ROWS], w[ROWS];
+    const double yield = 0.2; /* by then 2.4e-3 of strain are missing */
+    for (int i = 0; i < ROWS; i++) {
+        const double strain = 1.5e-4 * i;
+        const double pressure = bulk * strain * (1.0 + 1.5 * strain);
+        p[i] = fmin(pressure, yield);
+        q[i] = 0.0;
+        v[i] = strain;
+        w[i] = 0.0;
+    }
+    const double by_volume[2] = {bulk, 0.0}, by_shear[2] = {0.0, shear3};
+    struct gb_yield_path path = {p, q, v, w, ROWS, 0.0};
+    struct gb_yield_elastic elastic;
+    struct gb_yield_point point;
+    g_assert_true(gb_yield_offset_elastic(&elastic, by_volume, by_shear));
+    g_assert_true(gb_yield_offset_find(&path, &elastic, 1e-3, 1.5, &point));
+    g_assert_cmpfloat_with_epsilon(point.p_pa, yield, 1e-12);
+    g_assert_cmpfloat(point.flow_volume, >, 0.0);
+    path.count = 250; /* before it yields */
+    g_assert_false(gb_yield_offset_find(&path, &elastic, 1e-3, 1.5, &point));
+}
+
 /* An isotropic body, then one that is stiffer along z. */
 static void test_plane(void)
 {
@@ -144,6 +170,7 @@ int main(int argc, char **argv)
     g_test_add_func("/yield/plane", test_plane);
     g_test_add_func("/yield/perfectly_plastic", test_perfectly_plastic);
     g_test_add_func("/yield/elastic", test_elastic);
+    g_test_add_func("/yield/stiffening", test_stiffening);
     g_test_add_func("/yield/ellipse", test_ellipse);
     g_test_add_func("/yield/weibull", test_weibull);
     return g_test_run();

@@ -12,6 +12,7 @@
 #include "figures/report/report.h"
 #include "figures/series.h"
 #include "io/measured.h"
+#include "io/status/status_json.h"
 #include "many/die_summary.h"
 #include "many/lab/compaction_data.h"
 #include "many/runset.h"
@@ -803,9 +804,22 @@ static size_t last_row(const struct gb_table *table, const char *branch)
     return found;
 }
 
+/* Did the run stop before the end of the branch that it recorded last? */
+static bool stopped_in(const struct gb_runset_run *run, size_t row)
+{
+    char *status = g_build_filename(run->directory, "status.json", NULL);
+    const bool stopped = row + 1 == gb_table_rows(run->table) &&
+                         g_file_test(status, G_FILE_TEST_EXISTS) &&
+                         !gb_status_json_is_done(status);
+    g_free(status);
+    return stopped;
+}
+
+/* A run that stopped early is at another state than its replicas: it is left out of means. */
 static void put_mean(struct gb_report_table *table, const struct gb_runset *set,
                      size_t group, const char *branch, const char *column, int decimals)
 {
+    const bool replicas = gb_runset_members(set, group) > 1;
     double *values = g_new(double, set->count + 1);
     size_t filled = 0;
     double mean = NAN;
@@ -816,7 +830,7 @@ static void put_mean(struct gb_report_table *table, const struct gb_runset *set,
             run->table != NULL ? gb_table_column(run->table, column, NULL) : NULL;
         if (run->group == group && cells != NULL) {
             const size_t row = last_row(run->table, branch);
-            if (row < gb_table_rows(run->table)) {
+            if (row < gb_table_rows(run->table) && !(replicas && stopped_in(run, row))) {
                 values[filled++] = cells[row];
             }
         }
@@ -864,7 +878,8 @@ static bool ends_table(struct gb_report *report, struct gb_error *err)
         g_ptr_array_unref(branches);
     }
     return end_table(report, &table, "ends",
-                     "Last point of each branch; mean and standard error over the runs.",
+                     "Last point of each branch; mean and standard error over the runs "
+                     "that reached its end.",
                      err);
 }
 
