@@ -108,7 +108,7 @@ def check_numbers(rows, cols, edges, whole, faults, cut):
 def check_mode(terminal, mode, name, faults):
     if mode == 'ascii' and any(ord(c) > 126 for row in terminal.rows for c in row):
         faults.append('not ASCII')
-    sent = terminal.tmux('capture-pane', '-p', '-e')
+    sent = '\n'.join(terminal.tmux('capture-pane', '-p', '-e', '-t', 'work'))
     colours = set(re.findall(r'\x1b\[[0-9;]*(?:[34][0-7]|[34]8;5;\d+|9[0-7]|10[0-7])m', sent))
     if mode == 'mono' and colours:
         faults.append(f'colours: {colours}')

@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import select
 import shutil
 import subprocess
 import sys
@@ -62,22 +63,43 @@ class Terminal:
         self.env.update(GB_PRESET_DIR=presets, XDG_CONFIG_HOME=str(self.here / 'config'),
                         XDG_STATE_HOME=str(self.here / 'state'), LC_ALL='C.UTF-8')
         self.rows = []
-        # a server that ends may still take the command that starts the next program
-        self.settings = self.here / 'tmux.conf'
-        self.settings.write_text('set -s exit-empty off\n')
+        # Control mode: one client that takes commands line by line, where a process for each
+        # look at the screen takes half of the time.  Its own session keeps the server alive.
+        self.client = subprocess.Popen(
+            ['tmux', '-u', '-C', '-L', self.socket, '-f', '/dev/null', 'new-session', 'cat'],
+            env=self.env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+        self.unread = b''
+
+    def line(self):
+        """The next line of the client."""
+        while b'\n' not in self.unread:
+            ready, _, _ = select.select([self.client.stdout], [], [], PATIENCE_S)
+            got = os.read(self.client.stdout.fileno(), 1 << 16) if ready else b''
+            if not got:
+                self.results.stop(f'an answer of tmux ({self.mode})', self.rows)
+            self.unread += got
+        line, self.unread = self.unread.split(b'\n', 1)
+        return line.decode(errors='replace')
 
     def tmux(self, *words):
-        return subprocess.run(['tmux', '-u', '-L', self.socket, '-f', self.settings, *words],
-                              env=self.env, capture_output=True, text=True,
-                              timeout=PATIENCE_S).stdout
+        """The lines that a command prints; none where it fails."""
+        command = ' '.join("'" + str(word).replace("'", "'\\''") + "'" for word in words)
+        self.client.stdin.write((command + '\n').encode())
+        # "%begin TIME NUMBER FLAGS"; the flag is that of a command of this client
+        while not re.fullmatch(r'%begin \d+ \d+ 1', self.line()):
+            pass
+        lines = []
+        while not re.fullmatch(r'%(end|error) \d+ \d+ 1', line := self.line()):
+            lines.append(line)
+        return lines if line.startswith('%end') else []
 
     def start(self, words):
         before = ['env', 'NO_COLOR=1'] if self.mode == 'mono' else []
-        self.tmux('new-session', '-d', '-x', '200', '-y', '60', *before, self.program,
-                  *words, *MODES[self.mode])
+        self.tmux('new-session', '-d', '-s', 'work', '-x', 200, '-y', 60, *before,
+                  self.program, *words, *MODES[self.mode])
 
     def capture(self):
-        self.rows = self.tmux('capture-pane', '-p').split('\n')[:-1]
+        self.rows = self.tmux('capture-pane', '-p', '-t', 'work')
         return self.rows
 
     def settled(self):
@@ -89,7 +111,7 @@ class Terminal:
         return self.rows
 
     def keys(self, *names):
-        self.tmux('send-keys', *names)
+        self.tmux('send-keys', '-t', 'work', *names)
 
     def until(self, holds, what):
         end = time.monotonic() + PATIENCE_S
@@ -115,7 +137,7 @@ class Terminal:
 
     def resize(self, cols, rows, last='quit'):
         """`last` is a text of the last row."""
-        self.tmux('resize-window', '-x', str(cols), '-y', str(rows))
+        self.tmux('resize-window', '-t', 'work', '-x', cols, '-y', rows)
         self.until(lambda seen: len(seen) == rows and last in seen[-1] and
                    max(len(row.rstrip()) for row in seen[:-1]) >= cols - 2, f'{cols}x{rows}')
 
@@ -129,5 +151,7 @@ class Terminal:
         self.until(ended, 'the end')
 
     def finish(self):
-        self.tmux('kill-server')
+        subprocess.run(['tmux', '-L', self.socket, 'kill-server'], env=self.env, check=False,
+                       timeout=PATIENCE_S)
+        self.client.communicate(timeout=PATIENCE_S)
         shutil.rmtree(self.here, ignore_errors=True)
