@@ -210,8 +210,8 @@ static void check_levels(const struct gb_params *params)
 static void test_levels_single(void)
 {
     const struct gb_params params =
-        scene_params("numerics.precision=single", "particles.count=1000",
-                     "loading.until=60 MPa", "loading.unload_from=30 MPa",
+        scene_params("numerics.precision=single", "particles.count=400",
+                     "loading.until=40 MPa", "loading.unload_from=20 MPa",
                      "loading.step=1 %", "numerics.tolerance=1e-3", NULL);
     check_levels(&params);
 }

@@ -234,7 +234,7 @@ INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
 
 VARIANTS(w128, )
 static gb_bed_kernel *const table128[] = TABLE(w128);
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
 VARIANTS(w256, GB_TARGET_256)
 VARIANTS(w512, GB_TARGET_512)
 static gb_bed_kernel *const table256[] = TABLE(w256);
@@ -248,7 +248,7 @@ gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
     const double mu = walls ? law->mu_wall : law->mu;
     const int normal = !law->storakers ? 0 : law->normal.printed ? 2 : 1;
     const int row = 6 * walls + 2 * normal + (mu > 0.0);
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
     const int width = gb_simd_width(widest);
     return (width == 512 ? table512 : width == 256 ? table256 : table128)[row];
 #else

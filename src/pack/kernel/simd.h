@@ -17,6 +17,21 @@
 #endif
 #endif
 
+/* 1: loops are compiled once per level, 0: only once.  Under a sanitizer levels would differ
+ * in nothing that it checks, and each takes a minute to compile. */
+#if defined(__has_feature)
+#define GB_SIMD_CLANG_CHECKS                                                             \
+    (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
+#else
+#define GB_SIMD_CLANG_CHECKS 0
+#endif
+#if !defined(__x86_64__) || defined(__SANITIZE_ADDRESS__) ||                             \
+    defined(__SANITIZE_THREAD__) || GB_SIMD_CLANG_CHECKS
+#define GB_SIMD_LEVELS 0
+#else
+#define GB_SIMD_LEVELS 1
+#endif
+
 /* The widest vectors that the environment allows: GB_SIMD = sse2, avx2 or avx512 limits
  * the program to those of an older processor.  Read once, before main. */
 extern int gb_simd_most;
@@ -47,7 +62,7 @@ static inline int gb_simd_width(int widest)
 
 /* Defines `void name parameters` from the always-inlined `name_loop`, compiled once per
  * width.  Only for loops whose results do not depend on the order of lanes. */
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
 #define GB_SIMD_WIDTHS(name, parameters, arguments)                                      \
     GB_TARGET_512 static void name##_512 parameters                                      \
     {                                                                                    \

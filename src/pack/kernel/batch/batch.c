@@ -89,7 +89,7 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
 
 VARIANTS(w128, )
 static const struct gb_batch_kernel table128[] = TABLE(w128);
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
 VARIANTS(w256, GB_TARGET_256)
 VARIANTS(w512, GB_TARGET_512)
 static const struct gb_batch_kernel table256[] = TABLE(w256);
@@ -98,7 +98,7 @@ static const struct gb_batch_kernel table512[] = TABLE(w512);
 
 static const struct gb_batch_kernel *table_for(int widest)
 {
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
     const int width = gb_simd_width(widest);
     return width == 512 ? table512 : width == 256 ? table256 : table128;
 #else

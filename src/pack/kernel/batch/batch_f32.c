@@ -74,7 +74,7 @@
 
 VARIANTS(w128, )
 static const struct gb_batch_f32_kernel table128[] = TABLE(w128);
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
 VARIANTS(w256, GB_TARGET_256)
 VARIANTS(w512, GB_TARGET_512)
 static const struct gb_batch_f32_kernel table256[] = TABLE(w256);
@@ -88,7 +88,7 @@ struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int w
                     : model->terms.friction ? 1
                                             : 0;
     const int terms = law + (model->polydisperse ? 5 : 0);
-#if defined(__x86_64__)
+#if GB_SIMD_LEVELS
     const int width = gb_simd_width(widest);
     return (width == 512 ? table512 : width == 256 ? table256 : table128)[terms];
 #else
