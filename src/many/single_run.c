@@ -9,12 +9,14 @@
 #include "io/rundir.h"
 #include "io/status/status_json.h"
 #include "many/runset.h"
+#include "run/checkpoint.h"
 #include "run/run_loop.h"
 
 static const char stopped_text[] = "stopped on request";
 
 struct single_run {
     struct gb_run_loop loop;
+    const struct gb_params *first; /* up to the first point; NULL: the run's own */
     const struct gb_pool_callbacks *callbacks; /* NULL: none */
 };
 
@@ -63,6 +65,29 @@ static bool claim(struct single_run *run, const struct gb_params *params,
     return false;
 }
 
+/* Evaluations between two looks at the callbacks. */
+enum { SLICE = 1000 };
+
+/* The experiment of params, from the first point of one with other parameters. */
+static bool create_after(struct gb_experiment **out, struct single_run *run,
+                         const struct gb_params *params, struct gb_error *err)
+{
+    struct gb_experiment *before = NULL;
+    struct gb_record record = {0};
+    enum gb_step_outcome outcome = GB_STEP_MORE;
+    bool good = gb_experiment_create(&before, run->first, is_cancelled, run, err);
+    while (good && outcome == GB_STEP_MORE) {
+        outcome = gb_experiment_advance(before, SLICE, err);
+        good = outcome <= GB_STEP_POINT && may_continue(run, err);
+    }
+    good = good && gb_checkpoint_take(before, &record, err);
+    record.loading = true;
+    good = good && gb_experiment_resume(out, params, &record, err);
+    gb_record_finish(&record);
+    gb_experiment_destroy(before);
+    return good;
+}
+
 static bool begin(struct single_run *run, const struct gb_params *params,
                   const char *directory, enum gb_rundir_mode mode, struct gb_error *err)
 {
@@ -70,7 +95,9 @@ static bool begin(struct single_run *run, const struct gb_params *params,
     if (!claim(run, params, directory, mode, err)) {
         return false;
     }
-    if (!gb_experiment_create(&experiment, params, is_cancelled, run, err)) {
+    if (!(run->first != NULL
+              ? create_after(&experiment, run, params, err)
+              : gb_experiment_create(&experiment, params, is_cancelled, run, err))) {
         /* a scene that fails stays, with its status: other processes do not try it again */
         const bool of_scene = err->code == GB_ERR_GUARD ||
                               err->code == GB_ERR_NOT_CONVERGED ||
@@ -85,11 +112,11 @@ static bool begin(struct single_run *run, const struct gb_params *params,
     return true;
 }
 
-static bool perform(const struct gb_params *params, const char *directory,
-                    enum gb_rundir_mode mode, const struct gb_pool_callbacks *callbacks,
-                    struct gb_error *err)
+static bool perform(const struct gb_params *params, const struct gb_params *first,
+                    const char *directory, enum gb_rundir_mode mode,
+                    const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    struct single_run run = {.callbacks = callbacks};
+    struct single_run run = {.first = first, .callbacks = callbacks};
     const struct gb_run_loop_hooks hooks = {
         .may_continue = may_continue, .on_end = on_end, .data = &run};
     struct gb_error failure = {0};
@@ -105,14 +132,21 @@ static bool perform(const struct gb_params *params, const char *directory,
 bool gb_single_run(const struct gb_params *params, const char *directory,
                    const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    return perform(params, directory, GB_RUNDIR_REPLACE, callbacks, err);
+    return perform(params, NULL, directory, GB_RUNDIR_REPLACE, callbacks, err);
+}
+
+bool gb_single_run_after(const struct gb_params *params, const struct gb_params *first,
+                         const char *directory, const struct gb_pool_callbacks *callbacks,
+                         struct gb_error *err)
+{
+    return perform(params, first, directory, GB_RUNDIR_REPLACE, callbacks, err);
 }
 
 bool gb_single_run_missing(const struct gb_params *params, const char *directory,
                            const struct gb_pool_callbacks *callbacks,
                            struct gb_error *err)
 {
-    return perform(params, directory, GB_RUNDIR_MISSING, callbacks, err);
+    return perform(params, NULL, directory, GB_RUNDIR_MISSING, callbacks, err);
 }
 
 bool gb_single_run_is_taken(const struct gb_error *error)

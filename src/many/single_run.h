@@ -17,6 +17,12 @@
 bool gb_single_run(const struct gb_params *params, const char *directory,
                    const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
+/* The same, with other parameters up to its first point, which is not recorded: beds that
+ * were filled alike.  The two may differ in numerics and in the loading after that point. */
+bool gb_single_run_after(const struct gb_params *params, const struct gb_params *first,
+                         const char *directory, const struct gb_pool_callbacks *callbacks,
+                         struct gb_error *err);
+
 /* The same for directories that other processes work in, too: a run that another one does or
  * has done is left to it, with an error that gb_single_run_is_taken knows (GB_ERR_INPUT).
  * gb_ensemble_work looks at it again. */

@@ -6,8 +6,11 @@
 
 #include <glib.h>
 
+#include "common/die.h"
+#include "common/run_directory.h"
 #include "common/scene.h"
 #include "common/tree.h"
+#include "many/single_run.h"
 #include "study/chart/quantity_chart.h"
 
 static struct gb_params scene_of(const struct gb_quantity_study *study)
@@ -353,6 +356,47 @@ static void test_work(void)
     g_free(directory);
 }
 
+/* Rows of the curve of a die after its first point. */
+static char *later_rows(const struct gb_params *params, const struct gb_params *first)
+{
+    struct run_directory dir = run_directory_make("bed");
+    struct gb_error err = {0};
+    const bool good = first != NULL
+                          ? gb_single_run_after(params, first, dir.directory, NULL, &err)
+                          : gb_single_run(params, dir.directory, NULL, &err);
+    if (!good) {
+        g_error("%s", err.text);
+    }
+    char *rows = run_directory_rows(&dir);
+    char *later = g_strdup(strstr(rows, "\nload,1,"));
+    g_assert_nonnull(later);
+    g_free(rows);
+    run_directory_finish(&dir);
+    return later;
+}
+
+/* A bed that is filled with other numerics is pressed with its own: the same bits where both
+ * are the same, and the same bed where they differ. */
+static void test_same_bed(void)
+{
+    struct gb_params own =
+        die_params("particles.count=30", "loading.until=10 MPa",
+                   "loading.record_pressure=1 MPa", "numerics.inertia_scale=10", NULL);
+    struct gb_params other = own;
+    other.inertia_scale = 2.0;
+    char *whole = later_rows(&own, NULL);
+    char *after = later_rows(&own, &own);
+    char *filled = later_rows(&other, &own);
+    char *alone = later_rows(&other, NULL);
+    g_assert_true(strcmp(after, whole) == 0);
+    g_assert_true(strcmp(filled, whole) != 0);
+    g_assert_true(strcmp(filled, alone) != 0);
+    g_free(whole);
+    g_free(after);
+    g_free(filled);
+    g_free(alone);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -363,6 +407,7 @@ int main(int argc, char **argv)
     g_test_add_func("/quantities/known", test_known);
     g_test_add_func("/quantities/unknown", test_unknown);
     g_test_add_func("/quantities/work", test_work);
+    g_test_add_func("/quantities/same-bed", test_same_bed);
     const int status = g_test_run();
     remove_tree(folder);
     g_free(folder);

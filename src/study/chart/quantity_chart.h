@@ -32,6 +32,7 @@ struct gb_quantity_axis {
 struct gb_quantity_ask {
     struct gb_keep_point mark; /* where the study measures; unused without marks */
     double setting[GB_QUANTITY_AXES];
+    double own[GB_QUANTITY_AXES]; /* the default */
 };
 
 struct gb_quantity_study {
