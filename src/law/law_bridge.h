@@ -1,7 +1,6 @@
 #ifndef GB_LAW_LAW_BRIDGE_H
 #define GB_LAW_LAW_BRIDGE_H
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "law/law_rod.h"
@@ -20,20 +19,7 @@ struct gb_law_bridge {
 
 /* h_min (d) after a contact with deepest overlap h_min (0: no bridge) is moved to overlap
  * h (d): 0 for h <= 0.  Source: P1 section II.A. */
-static inline double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min,
-                                           double h)
-{
-    if (h <= 0.0) {
-        return 0.0;
-    }
-    if (h_min <= 0.0) {
-        return h > law->length ? h : 0.0;
-    }
-    if (h >= h_min) {
-        return h;
-    }
-    return h_min - h > law->length ? h + law->length : h_min;
-}
+double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min, double h);
 
 /* Elastic force f_e (E d^2) at overlap h <= h_min of a bridged contact (d): the tangent of
  * (1) at h_min; negative where it pulls.  Source: P1 (2), its slope the derivative of (1).
@@ -42,11 +28,7 @@ double gb_law_bridge_force(const struct gb_law_rod *rod, double h_min, double h)
 
 /* Contact radius a_ch = sqrt(h_min)/2 (d), or the printed form at the current r; h_min
  * must be above 0.  Source: P1 section II.A. */
-static inline double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min,
-                                          double h)
-{
-    return 0.5 * sqrt(law->radius_current ? h + law->length : h_min);
-}
+double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min, double h);
 
 /* Mean normal stress that breaks the bridge (partly) at overlap h, in E; P1 Fig. 2. */
 double gb_law_bridge_peel_stress(const struct gb_law_bridge *law,

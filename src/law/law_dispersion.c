@@ -1,27 +1,22 @@
 #include "law/law_dispersion.h"
 
-#include <math.h>
+#include "law/real_exact.h"
 
-#include "base/portable.h"
-
-/* 1 / (s^3 (s^2 - 1)^2), s = r + alpha d0. */
-static double shape(double s)
-{
-    const double q = s * s - 1.0;
-    return 1.0 / (s * s * s * q * q);
-}
+#include "law/normal.h"
 
 void gb_law_dispersion_init(struct gb_law_dispersion *law, double n_d0_cubed,
                             double epsilon, double alpha, double d0)
 {
     law->strength = M_PI * M_PI / 3.0 * n_d0_cubed * n_d0_cubed * epsilon;
     law->shift = alpha * d0;
-    law->contact = law->strength > 0.0 ? law->strength * shape(1.0 + law->shift) : 0.0;
+    law->contact = law->strength > 0.0 ? gb_law_dispersion_force(law, 1.0) : 0.0;
 }
 
 double gb_law_dispersion_force(const struct gb_law_dispersion *law, double r)
 {
-    return r < 1.0 ? law->contact : law->strength * shape(r + law->shift);
+    const struct normal_law constants = {.strength = law->strength, .shift = law->shift};
+    const struct pull pull = equal_pull(&constants, r);
+    return pull.factor > 0.0 ? pull.factor / pull.sum : 0.0;
 }
 
 double gb_law_dispersion_slope(const struct gb_law_dispersion *law, double r)
@@ -30,7 +25,7 @@ double gb_law_dispersion_slope(const struct gb_law_dispersion *law, double r)
         return 0.0;
     }
     const double s = r + law->shift;
-    return -law->strength * shape(s) * (3.0 / s + 4.0 * s / (s * s - 1.0));
+    return -gb_law_dispersion_force(law, r) * (3.0 / s + 4.0 * s / (s * s - 1.0));
 }
 
 double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r)

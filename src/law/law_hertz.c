@@ -1,9 +1,9 @@
 #include "law/law_hertz.h"
 
-#include <math.h>
-
-#include "base/portable.h"
 #include "law/critical_step.h"
+#include "law/real_exact.h"
+
+#include "law/storakers.h"
 
 /* Greatest pressure over yield stress when a sphere starts to flow; von Mises, nu = 0.3.
  * Source: P3 (30). */
@@ -37,12 +37,14 @@ double gb_law_hertz_radius(double ri, double rj)
 
 double gb_law_hertz_force(const struct gb_law_hertz *law, double radius, double h)
 {
-    return h > 0.0 ? 4.0 / 3.0 * law->modulus * sqrt(radius * h) * h : 0.0;
+    const double factor = hertz_factor(law->modulus, root(radius));
+    return h > 0.0 ? hertz_force(factor, h, root(h)) : 0.0;
 }
 
 double gb_law_hertz_stiffness(const struct gb_law_hertz *law, double radius, double h)
 {
-    return h > 0.0 ? 2.0 * law->modulus * sqrt(radius * h) : 0.0;
+    const double factor = hertz_factor(law->modulus, root(radius));
+    return h > 0.0 ? hertz_slope(factor, root(h)) : 0.0;
 }
 
 double gb_law_hertz_energy(const struct gb_law_hertz *law, double radius, double h)
@@ -81,13 +83,12 @@ double gb_law_hertz_damping(double stiffness, double reduced_mass, double xi)
 double gb_law_hertz_damping_borne(double damping, double stiffness, double square,
                                   double step)
 {
-    const double rate = step * square;
-    return rate > 0.0 ? fmin(damping, GB_LAW_HERTZ_BORNE * stiffness / rate) : damping;
+    return smaller(damping, borne_damping(stiffness, step / GB_LAW_HERTZ_BORNE, square));
 }
 
 double gb_law_hertz_damped_force(double elastic, double damping, double approach)
 {
-    return fmax(elastic + damping * approach, 0.0);
+    return damped_force(elastic, -damping * approach);
 }
 
 double gb_law_hertz_critical_step(double stiffness, double mass, double xi)

@@ -1,42 +1,8 @@
 #include "law/law_rod.h"
 
-#include <math.h>
+#include "law/real_exact.h"
 
-#include "base/portable.h"
-
-/* Below this overlap the logarithms are summed as power series: h + ln(1 - h) loses
- * digits to cancellation as h -> 0, and the series vectorises.  The first term left out
- * is below 2^-53 of the sum at the border. */
-static const double series_border = 0.0625;
-
-enum { SERIES_TERMS = 14 };
-
-/* h + ln(1 - h) = -sum h^k / k, k >= 2.  Returns the sum without its sign. */
-static double log_tail(double h)
-{
-    if (h > series_border) {
-        return -(h + gb_portable_log1p(-h));
-    }
-    double sum = 0.0;
-    for (int k = SERIES_TERMS; k >= 2; k--) {
-        sum = sum * h + 1.0 / k;
-    }
-    return sum * h * h;
-}
-
-/* (1/4) ln((1+s)/(1-s)) - s/2 - s^3/6 with s = sqrt(h): half the tail of artanh(s). */
-static double artanh_tail(double h)
-{
-    const double s = sqrt(h);
-    if (h > series_border) {
-        return 0.5 * (atanh(s) - s - s * h / 3.0);
-    }
-    double sum = 0.0;
-    for (int k = SERIES_TERMS; k >= 2; k--) {
-        sum = sum * h + 1.0 / (2 * k + 1);
-    }
-    return 0.5 * s * sum * h * h;
-}
+#include "law/springs.h"
 
 void gb_law_rod_init(struct gb_law_rod *law, double poisson)
 {
@@ -54,7 +20,7 @@ double gb_law_rod_force(const struct gb_law_rod *law, double h)
     if (h >= 1.0) {
         return INFINITY;
     }
-    return law->hertz * h * sqrt(h) + law->rod * log_tail(h);
+    return rod_force(law->hertz * root(h), h, law->rod, h, 0.0);
 }
 
 double gb_law_rod_stiffness(const struct gb_law_rod *law, double h)
@@ -65,7 +31,7 @@ double gb_law_rod_stiffness(const struct gb_law_rod *law, double h)
     if (h >= 1.0) {
         return INFINITY;
     }
-    return 1.5 * law->hertz * sqrt(h) + law->rod * h / (1.0 - h);
+    return rod_slope(law->hertz * root(h), law->rod * h / (1.0 - h));
 }
 
 /* Integral of -(x + ln(1 - x)) from 0 to h: sum h^(k+1) / (k (k+1)), k >= 2. */
@@ -111,5 +77,7 @@ double gb_law_rod_moment(const struct gb_law_rod *law, double h)
     }
     /* a^4 = h^2/16, so (pi/2) a^4/(1-nu^2) = (3 pi/32) hertz h^2; a/d + (4/3) a^3/d^3 =
      * s/2 + s^3/6 with s = 2a = sqrt(h). */
-    return 3.0 * M_PI / 32.0 * law->hertz * h * h + law->pivot * artanh_tail(h);
+    const struct gb_law_slip none = {0};
+    const struct slip_law constants = slip_law(&none, law);
+    return contact_moment(&constants, h, root(h), moment_tail(h));
 }

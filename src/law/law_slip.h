@@ -1,8 +1,6 @@
 #ifndef GB_LAW_LAW_SLIP_H
 #define GB_LAW_LAW_SLIP_H
 
-#include <math.h>
-
 #include "law/law_bridge.h"
 #include "law/law_rod.h"
 
@@ -25,39 +23,18 @@ void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double
 
 /* Stiffnesses at contact radius a (d; a_ch for a bridge): shear in E d, pivoting and
  * rolling in E d^3 per radian.  Source: P1 (4), (6), (12). */
-static inline double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a)
-{
-    return law->shear * a;
-}
-
-static inline double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a)
-{
-    return law->pivot * a * a * a;
-}
-
-static inline double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a)
-{
-    return law->roll * a * a * a;
-}
+double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a);
+double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a);
+double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a);
 
 /* Caps of a bridge with radius a; also what sigma_b allows a plain contact of radius a.
  */
-static inline double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a)
-{
-    return M_PI * a * a * law->strength;
-}
-
-static inline double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a)
-{
-    return 0.5 * M_PI * a * a * a * law->strength;
-}
+double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a);
+double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a);
 
 /* Cap of the rolling moment of a bridge (E d^3), a_ch max(f_e, 0) / 3.  Source: P1
  * (12). */
-static inline double gb_law_slip_roll_cap(double a, double force)
-{
-    return force > 0.0 ? a * force / 3.0 : 0.0;
-}
+double gb_law_slip_roll_cap(double a, double force);
 
 /* Caps of a contact without a bridge at overlap h (d): shear force in E d^2, pivoting
  * moment in E d^3; 0 for h <= 0.  Source: P1 (5), (8)-(11). */

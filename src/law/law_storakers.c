@@ -1,8 +1,8 @@
 #include "law/law_storakers.h"
 
-#include <math.h>
+#include "law/real_exact.h"
 
-#include "base/portable.h"
+#include "law/storakers.h"
 
 double gb_law_storakers_hollomon(double yield, double young, double exponent)
 {
@@ -35,41 +35,47 @@ void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic
     law->printed = printed;
 }
 
-double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radius,
-                                double h)
-{
-    if (!(h > 0.0)) {
-        return 0.0;
-    }
-    return law->factor * law->strength * radius * h *
-           gb_portable_pow(h / radius, 0.5 * law->exponent);
-}
-
-static double plastic_stiffness(const struct gb_law_storakers *law, double radius,
-                                double h)
-{
-    if (!(h > 0.0)) {
-        return 0.0;
-    }
-    return (1.0 + 0.5 * law->exponent) * gb_law_storakers_plastic(law, radius, h) / h;
-}
-
 double gb_law_storakers_transition(const struct gb_law_storakers *law, double radius)
 {
     const double ratio = 0.75 * law->factor * law->strength / law->hertz.modulus;
     return radius * gb_portable_pow(ratio, 2.0 / (1.0 - law->exponent));
 }
 
+/* Elastic part of overlap h above 0 on the curve (16). */
+static double plastic_part(const struct gb_law_storakers *law, double transition,
+                           double h)
+{
+    return transition * gb_portable_pow(h / transition, elastic_power(law->exponent));
+}
+
+double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radius,
+                                double h)
+{
+    if (!(h > 0.0)) {
+        return 0.0;
+    }
+    const double transition = gb_law_storakers_transition(law, radius);
+    return gb_law_hertz_force(&law->hertz, radius, plastic_part(law, transition, h));
+}
+
+/* Elastic part of overlap h on the loading curve. */
+static double elastic_part(const struct gb_law_storakers *law, double radius, double h)
+{
+    const double transition = gb_law_storakers_transition(law, radius);
+    return loaded_part(law->printed, h / transition, plastic_part(law, transition, h), h);
+}
+
 struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law,
                                               double radius, double h)
 {
-    const double elastic = gb_law_hertz_force(&law->hertz, radius, h);
-    const double plastic = gb_law_storakers_plastic(law, radius, h);
-    if (elastic <= plastic && !law->printed) {
-        return (struct gb_law_branch){elastic,
-                                      gb_law_hertz_stiffness(&law->hertz, radius, h)};
+    if (!(h > 0.0)) {
+        return (struct gb_law_branch){0.0, 0.0};
     }
-    return (struct gb_law_branch){plastic, plastic_stiffness(law, radius, h)};
+    const double part = elastic_part(law, radius, h);
+    const double force = gb_law_hertz_force(&law->hertz, radius, part);
+    return (struct gb_law_branch){
+        force, part == h && !law->printed ? gb_law_hertz_stiffness(&law->hertz, radius, h)
+                                          : plastic_slope(law->exponent, force, h)};
 }
 
 double gb_law_storakers_contact(const struct gb_law_storakers *law, double radius,
@@ -90,12 +96,8 @@ double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, 
 double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,
                                  double deepest)
 {
-    const double elastic = gb_law_hertz_force(&law->hertz, radius, deepest);
-    const double plastic = gb_law_storakers_plastic(law, radius, deepest);
-    if (elastic <= plastic && !law->printed) {
-        return deepest; /* to the bit: an elastic contact returns along its way in */
-    }
-    return gb_law_hertz_overlap(&law->hertz, radius, plastic);
+    /* to the bit: an elastic contact returns along its way in */
+    return deepest > 0.0 ? elastic_part(law, radius, deepest) : 0.0;
 }
 
 /* h - h0, the overlap that Hertz' law sees below the deepest one. */

@@ -1,8 +1,8 @@
 #include "law/law_unequal.h"
 
-#include <math.h>
+#include "law/real_exact.h"
 
-#include "base/portable.h"
+#include "law/springs.h"
 
 void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *rod,
                          const struct gb_law_bridge *bridge,
@@ -11,47 +11,68 @@ void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *ro
 {
     const double mean_diameter = 0.5 * (first + second),
                  inverse_diameter = 1.0 / mean_diameter;
-    const double share =
-        first * second * inverse_diameter * inverse_diameter; /* d_i d_j/D^2 = c */
-    const double offset = 0.5 * (first - second) * inverse_diameter, root = sqrt(share);
     *law = (struct gb_law_unequal){
         .mean_diameter = mean_diameter,
-        .diameter_ratio = share,
+        .diameter_ratio = first * second * inverse_diameter * inverse_diameter,
         .inverse_diameter = {1.0 / first, 1.0 / second},
-        .rod = {.hertz = root * rod->hertz,
-                .rod = share * rod->rod,
-                .pivot = share * rod->pivot},
+        .rod = *rod,
         .bridge_length = mean_diameter * bridge->length,
-        .strength = share * share * share * dispersion->strength * inverse_diameter *
-                    inverse_diameter * inverse_diameter,
-        .shift = dispersion->shift * inverse_diameter,
-        .offset = offset * offset,
+        .strength = dispersion->strength,
+        .shift = dispersion->shift,
     };
     law->adhesion = gb_law_unequal_attraction(law, mean_diameter);
+}
+
+static struct pair_size size_of(const struct gb_law_unequal *law)
+{
+    return (struct pair_size){law->mean_diameter, 1.0 / law->mean_diameter,
+                              law->diameter_ratio * law->mean_diameter,
+                              law->inverse_diameter[0], law->inverse_diameter[1]};
+}
+
+static struct normal_law constants_of(const struct gb_law_unequal *law)
+{
+    return (struct normal_law){.hertz = law->rod.hertz,
+                               .rod = law->rod.rod,
+                               .strength = law->strength,
+                               .shift = law->shift};
 }
 
 double gb_law_unequal_elastic(const struct gb_law_unequal *law, double deepest, double h,
                               double *stiffness)
 {
-    const double from = deepest > 0.0 ? deepest : h, x = from / law->mean_diameter;
-    const double slope = law->mean_diameter * gb_law_rod_stiffness(&law->rod, x);
+    const struct pair_size size = size_of(law);
+    const double from = deepest > 0.0 ? deepest : larger(h, 0.0);
+    const double x = from * size.inverse_mean, rod = law->rod.rod * size.reduced;
+    const double hertz = law->rod.hertz * root(size.reduced * from);
+    const double slope = x < 1.0 ? rod_slope(hertz, rod * x / (1.0 - x)) : INFINITY;
     if (stiffness) {
         *stiffness = slope;
     }
-    return law->mean_diameter * law->mean_diameter * gb_law_rod_force(&law->rod, x) -
-           slope * (from - h);
+    return x < 1.0 ? on_tangent(rod_force(hertz, from, rod * size.mean, x, 0.0), slope,
+                                from, deepest > 0.0 ? h : from)
+                   : INFINITY;
+}
+
+/* The rod law in units of D. */
+static struct gb_law_rod rod_in_mean(const struct gb_law_unequal *law)
+{
+    const double c = law->diameter_ratio;
+    return (struct gb_law_rod){.hertz = root(c) * law->rod.hertz,
+                               .rod = c * law->rod.rod,
+                               .pivot = c * law->rod.pivot};
 }
 
 double gb_law_unequal_elastic_energy(const struct gb_law_unequal *law, double deepest,
                                      double h)
 {
+    const struct gb_law_rod rod = rod_in_mean(law);
     const double mean_diameter = law->mean_diameter;
     const double from = deepest > 0.0 ? deepest : h, x = from / mean_diameter,
                  back = from - h;
-    return mean_diameter * mean_diameter * mean_diameter *
-               gb_law_rod_energy(&law->rod, x) -
-           mean_diameter * mean_diameter * gb_law_rod_force(&law->rod, x) * back +
-           0.5 * mean_diameter * gb_law_rod_stiffness(&law->rod, x) * back * back;
+    return mean_diameter * mean_diameter * mean_diameter * gb_law_rod_energy(&rod, x) -
+           mean_diameter * mean_diameter * gb_law_rod_force(&rod, x) * back +
+           0.5 * mean_diameter * gb_law_rod_stiffness(&rod, x) * back * back;
 }
 
 double gb_law_unequal_radius(const struct gb_law_unequal *law, double h)
@@ -61,18 +82,24 @@ double gb_law_unequal_radius(const struct gb_law_unequal *law, double h)
 
 double gb_law_unequal_moment(const struct gb_law_unequal *law, double h)
 {
-    /* a carries another root of c, in both terms of (9) */
-    return law->mean_diameter * law->mean_diameter * law->mean_diameter *
-           sqrt(law->diameter_ratio) *
-           gb_law_rod_moment(&law->rod, h / law->mean_diameter);
+    const struct pair_size size = size_of(law);
+    const struct gb_law_slip none = {0};
+    const struct slip_law constants = slip_law(&none, &law->rod);
+    const double x = h * size.inverse_mean;
+    if (!(h > 0.0)) {
+        return 0.0;
+    }
+    return x < 1.0 ? unequal_contact_moment(&constants, size, h, root(size.reduced * h),
+                                            moment_tail(x))
+                   : INFINITY;
 }
 
 double gb_law_unequal_attraction(const struct gb_law_unequal *law, double r)
 {
-    const double s = fmax(r / law->mean_diameter, 1.0) + law->shift;
-    const double near = s * s - 1.0, wide = s * s - law->offset;
-    return law->mean_diameter * law->mean_diameter * law->strength * s /
-           (near * near * wide * wide);
+    const struct normal_law constants = constants_of(law);
+    const struct pull pull =
+        unequal_pull(&constants, size_of(law), law->mean_diameter - r);
+    return pull.factor > 0.0 ? pull.factor / pull.sum : 0.0;
 }
 
 double gb_law_unequal_attraction_energy(const struct gb_law_unequal *law, double r)
@@ -80,16 +107,15 @@ double gb_law_unequal_attraction_energy(const struct gb_law_unequal *law, double
     if (law->strength == 0.0) {
         return 0.0;
     }
-    /* the integral of s/((s^2-1)^2 (s^2-o)^2) by partial fractions in s^2, with c = 1-o
-     */
-    const double s = fmax(r / law->mean_diameter, 1.0) + law->shift, u = s * s;
-    const double c = law->diameter_ratio;
-    const double near = u - 1.0, wide = u - law->offset;
+    /* the integral of s/((s^2-1)^2 (s^2-o)^2) by partial fractions in s^2, with c = 1-o;
+     * s in D */
+    const double mean_diameter = law->mean_diameter, c = law->diameter_ratio;
+    const double s = larger(r / mean_diameter, 1.0) + law->shift / mean_diameter;
+    const double near = s * s - 1.0, wide = near + c;
     const double tail =
         (1.0 / near + 1.0 / wide + 2.0 / c * gb_portable_log1p(-c / wide)) / (c * c);
-    const double mean_diameter = law->mean_diameter;
-    return -0.5 * mean_diameter * mean_diameter * mean_diameter * law->strength * tail -
-           law->adhesion * fmax(mean_diameter - r, 0.0);
+    return -0.5 * c * c * c * law->strength * tail -
+           law->adhesion * larger(mean_diameter - r, 0.0);
 }
 
 double gb_law_unequal_equilibrium(const struct gb_law_unequal *law)
@@ -98,14 +124,15 @@ double gb_law_unequal_equilibrium(const struct gb_law_unequal *law)
         return 0.0;
     }
     /* Hertz alone needs more overlap; from there Newton's way down is monotonic */
-    const double wanted = law->adhesion / (law->mean_diameter * law->mean_diameter);
-    double x = gb_portable_cbrt(wanted / law->rod.hertz), change = 1.0;
-    x *= x;
-    for (int i = 0; i < 50 && x < 1.0 && change > 1e-15; i++) {
-        const double less = (gb_law_rod_force(&law->rod, x) - wanted) /
-                            gb_law_rod_stiffness(&law->rod, x);
-        change = less / x;
-        x -= less;
+    const double reduced = law->diameter_ratio * law->mean_diameter;
+    double x = gb_portable_cbrt(law->adhesion / (law->rod.hertz * root(reduced)));
+    double h = x * x, change = 1.0;
+    for (int i = 0; i < 50 && h < law->mean_diameter && change > 1e-15; i++) {
+        double slope;
+        const double less =
+            (gb_law_unequal_elastic(law, 0.0, h, &slope) - law->adhesion) / slope;
+        change = less / h;
+        h -= less;
     }
-    return x * law->mean_diameter;
+    return h;
 }

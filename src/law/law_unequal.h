@@ -19,15 +19,16 @@
  *             s = r + alpha d0
  *   bridges   bridge_length in d is in D; a_ch = sqrt(d' (D - r_min))/2
  *
- * In units of D these are the laws of equal spheres with factors of c = d'/D. */
+ * In units of D these are the laws of equal spheres with factors of c = d'/D.  The
+ * formulas are those of law/normal.h. */
 struct gb_law_unequal {
     double mean_diameter;  /* D, in the model's lengths, as everything without a note */
     double diameter_ratio; /* c */
     double inverse_diameter[2]; /* 1/d_i, 1/d_j */
-    struct gb_law_rod rod;      /* in D, with the factors of c */
+    struct gb_law_rod rod;      /* of two spheres of the reference diameter */
     double bridge_length;
-    double strength, shift, offset; /* of (3), in D; offset: (d_i - d_j)/2 squared */
-    double adhesion;                /* f_a where they touch */
+    double strength, shift; /* of (3), of those two as well */
+    double adhesion;        /* f_a where they touch */
 };
 
 /* From the laws of two spheres of the reference diameter; diameters in its lengths, above

@@ -1,7 +1,5 @@
 #include "scene/model.h"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_roots.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,46 +11,6 @@
 #include "scene/normal_law.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
-
-struct normal_laws {
-    const struct gb_law_rod *rod;
-    double adhesion;
-};
-
-static double normal_force(double h, void *data)
-{
-    const struct normal_laws *laws = data;
-    return gb_law_rod_force(laws->rod, h) - laws->adhesion;
-}
-
-/* Root of f_e(h) = f_a(d); NaN when adhesion is too strong for the laws to hold. */
-static double equilibrium_overlap(const struct gb_law_rod *rod, double adhesion)
-{
-    if (adhesion <= 0.0) {
-        return 0.0;
-    }
-    struct normal_laws laws = {rod, adhesion};
-    if (normal_force(GB_OVERLAP_MAX, &laws) <= 0.0) {
-        return NAN;
-    }
-    gsl_function function = {normal_force, &laws};
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (!solver) {
-        return NAN;
-    }
-    double low = 0.0, high = GB_OVERLAP_MAX;
-    gsl_root_fsolver_set(solver, &function, low, high);
-    int status = GSL_CONTINUE;
-    for (int i = 0; i < 200 && status == GSL_CONTINUE; i++) {
-        gsl_root_fsolver_iterate(solver);
-        low = gsl_root_fsolver_x_lower(solver);
-        high = gsl_root_fsolver_x_upper(solver);
-        status = gsl_root_test_interval(low, high, 0.0, 1e-15);
-    }
-    const double h = gsl_root_fsolver_root(solver);
-    gsl_root_fsolver_free(solver);
-    return h;
-}
 
 static double by_fidelity(int fidelity, double fast, double balanced, double reference)
 {
@@ -260,14 +218,16 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
     return true;
 }
 
-/* Largest equilibrium overlap by adhesion: that of two of the smallest particles. */
+/* Largest equilibrium overlap by adhesion, over D: that of two of the smallest particles; NaN
+ * when adhesion is too strong for the laws to hold. */
 static double largest_equilibrium(const struct gb_model *model)
 {
+    const double smallest = model->polydisperse ? model->diameter_min : 1.0;
     struct gb_law_unequal law;
-    if (!model->polydisperse) {
-        return equilibrium_overlap(&model->rod, model->adhesion);
+    if (!(model->adhesion > 0.0)) {
+        return 0.0;
     }
-    gb_unequal_pair_init(&law, model, model->diameter_min, model->diameter_min);
+    gb_unequal_pair_init(&law, model, smallest, smallest);
     const double share = gb_law_unequal_equilibrium(&law) / law.mean_diameter;
     return share < GB_OVERLAP_MAX ? share : (double)NAN;
 }

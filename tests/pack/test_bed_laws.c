@@ -6,7 +6,7 @@
 #include "common/bed.h"
 #include "common/mindlin.h"
 #include "pack/kernel/bed_batch.h"
-#include "pack/kernel/bed_laws.h"
+#include "law/real_f64.h"
 
 /* Batches of a bed's contacts: the laws, and the transfer between particles and batch. */
 

@@ -14,9 +14,9 @@ enum gb_real {
     GB_REAL_F32, /* quasi-static scenes in 3D */
 };
 
-static inline size_t gb_real_size(enum gb_real real)
+static inline size_t gb_real_size(enum gb_real precision)
 {
-    return real == GB_REAL_F32 ? sizeof(float) : sizeof(double);
+    return precision == GB_REAL_F32 ? sizeof(float) : sizeof(double);
 }
 
 /* Contact records of the near pairs, one per slot of the list: structure of arrays, so

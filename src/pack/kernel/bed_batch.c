@@ -1,19 +1,21 @@
+#include "law/real_f64.h"
+
+#include "law/springs.h"
+#include "law/storakers.h"
 #include "pack/kernel/bed_batch.h"
-
-#include <math.h>
-
-#include "pack/kernel/bed_laws.h"
 #include "pack/kernel/simd.h"
 
-/* Storakers: the elastic part y of overlap h on the loading curve, so that the force is
- * Hertz' at y.  With h_x the overlap where (2) and (16) meet, F = (16) means
- * y = h_x (h/h_x)^((2+m)/3): one power of a ratio near 1 instead of two of h.  Below h_x
- * the lesser force is that of Hertz and y = h; the printed law uses (16) there too. */
+/* What a bed needs; constants where a loop is inlined, so that it computes no more. */
+struct bed_terms {
+    bool storakers, printed, friction;
+};
+
+/* Storakers: the elastic part of the overlap on the loading curve (law/storakers.h). */
 INLINE void loaded_parts(const struct gb_bed_law *law, struct bed_terms t,
                          struct gb_bed_batch *restrict b,
                          const double *restrict transition)
 {
-    const double power = (2.0 + law->normal.exponent) / 3.0;
+    const double power = elastic_power(law->normal.exponent);
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const double positive = larger(larger(b->overlap[k], 0.0), 1e-300);
@@ -27,7 +29,7 @@ INLINE void loaded_parts(const struct gb_bed_law *law, struct bed_terms t,
     for (int k = 0; k < b->n; k++) {
         const double plastic = transition[k] * exp2_of(b->logarithm[k]);
         const double h = larger(larger(b->overlap[k], 0.0), 1e-300);
-        b->loaded[k] = selected(bit_mask(t.printed | (b->ratio[k] > 1.0)), plastic, h);
+        b->loaded[k] = loaded_part(t.printed, b->ratio[k], plastic, h);
     }
 }
 
@@ -61,7 +63,7 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
     const double *restrict inverse_mass = c->inverse_mass + slot;
     const double *restrict permanent = c->permanent + slot;
     double *restrict normal = c->normal + slot;
-    const double slope = 1.0 + 0.5 * law->normal.exponent;
+    const double exponent = law->normal.exponent;
     const double late = b->step / GB_LAW_HERTZ_BORNE; /* gb_law_hertz_damping_borne */
     double stiffest = b->stiffest, impact = b->impact;
 #pragma omp simd reduction(max : stiffest, impact)
@@ -71,20 +73,21 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
         const double touching = mask(b->overlap[k] > 0.0);
         const double part = t.storakers ? larger(h - permanent[k], 0.0) : h;
         const double root = sqrt(part);
-        const double elastic = hertz[k] * part * root, unloading = 1.5 * hertz[k] * root;
+        const double elastic = hertz_force(hertz[k], part, root);
+        const double unloading = hertz_slope(hertz[k], root);
         const double approach =
             b->slip[0][k] * nx + b->slip[1][k] * ny + b->slip[2][k] * nz;
         double stiffness = unloading;
         if (t.storakers) {
             const double yields = b->stiffness[k];
-            const double loading = slope * elastic / larger(h, 1e-300);
+            const double loading = plastic_slope(exponent, elastic, h);
             stiffness = yields * loading + (1.0 - yields) * unloading;
         }
         const double square =
             (2.0 * (unloading * inverse_mass[k]) + b->held[k]) * (1.0 / 3.0);
-        const double borne = unloading / larger(late * square, 1e-300);
+        const double borne = borne_damping(unloading, late, square);
         const double dashpot = smaller(damping[k] * sqrt(stiffness), borne) * approach;
-        const double fn = larger(elastic - dashpot, 0.0);
+        const double fn = damped_force(elastic, dashpot);
         const double rigid = hertz[k] * inverse_mass[k];
         const double hits = -approach * (rigid * rigid);
         stiffest = square > stiffest ? square : stiffest;
@@ -209,50 +212,54 @@ INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
         contact_forces(law, t, batch, contacts, slot);                                   \
     }
 
-/* Without and with friction. */
-#define TWO(name, attribute, ...)                                                        \
-    VARIANT(name, attribute, __VA_ARGS__)                                                \
-    VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)
+/* The combinations of terms that beds have. */
+#define TWO(X, name, attribute, ...)                                                     \
+    X(name, attribute, __VA_ARGS__)                                                      \
+    X(name##_friction, attribute, .friction = true, __VA_ARGS__)
+#define COMBINATIONS(X, width, attribute)                                                \
+    TWO(X, width##_hertz, attribute, .storakers = false)                                 \
+    TWO(X, width##_storakers, attribute, .storakers = true)                              \
+    TWO(X, width##_printed, attribute, .storakers = true, .printed = true)
 
-#define VARIANTS(width, attribute)                                                       \
-    TWO(width##_hertz, attribute, .walls = false)                                        \
-    TWO(width##_storakers, attribute, .walls = false, .storakers = true)                 \
-    TWO(width##_printed, attribute, .walls = false, .storakers = true, .printed = true)  \
-    TWO(width##_wall_hertz, attribute, .walls = true)                                    \
-    TWO(width##_wall_storakers, attribute, .walls = true, .storakers = true)             \
-    TWO(width##_wall_printed, attribute, .walls = true, .storakers = true,               \
-        .printed = true)
+struct variant {
+    struct bed_terms terms;
+    gb_bed_kernel *kernel;
+};
 
-#define TABLE(width)                                                                     \
-    {                                                                                    \
-        width##_hertz, width##_hertz_friction, width##_storakers,                        \
-            width##_storakers_friction, width##_printed, width##_printed_friction,       \
-            width##_wall_hertz, width##_wall_hertz_friction, width##_wall_storakers,     \
-            width##_wall_storakers_friction, width##_wall_printed,                       \
-            width##_wall_printed_friction                                                \
-    }
+#define ROW(name, attribute, ...) {{__VA_ARGS__}, name},
 
-VARIANTS(w128, )
-static gb_bed_kernel *const table128[] = TABLE(w128);
+COMBINATIONS(VARIANT, w128, )
+static const struct variant table128[] = {COMBINATIONS(ROW, w128, )};
 #if GB_SIMD_LEVELS
-VARIANTS(w256, GB_TARGET_256)
-VARIANTS(w512, GB_TARGET_512)
-static gb_bed_kernel *const table256[] = TABLE(w256);
-static gb_bed_kernel *const table512[] = TABLE(w512);
+COMBINATIONS(VARIANT, w256, GB_TARGET_256)
+COMBINATIONS(VARIANT, w512, GB_TARGET_512)
+static const struct variant table256[] = {COMBINATIONS(ROW, w256, )};
+static const struct variant table512[] = {COMBINATIONS(ROW, w512, )};
 #endif
+
+enum { VARIANTS = sizeof table128 / sizeof table128[0] };
 
 gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
                                  enum gb_bed_partner partner, int widest)
 {
-    const bool walls = partner == GB_BED_PARTNER_WALL;
-    const double mu = walls ? law->mu_wall : law->mu;
-    const int normal = !law->storakers ? 0 : law->normal.printed ? 2 : 1;
-    const int row = 6 * walls + 2 * normal + (mu > 0.0);
+    const double mu = partner == GB_BED_PARTNER_WALL ? law->mu_wall : law->mu;
+    const struct bed_terms wanted = {.storakers = law->storakers,
+                                     .printed = law->storakers && law->normal.printed,
+                                     .friction = mu > 0.0};
 #if GB_SIMD_LEVELS
     const int width = gb_simd_width(widest);
-    return (width == 512 ? table512 : width == 256 ? table256 : table128)[row];
+    const struct variant *table = width == 512   ? table512
+                                  : width == 256 ? table256
+                                                 : table128;
 #else
     (void)widest;
-    return table128[row];
+    const struct variant *table = table128;
 #endif
+    int row = 0;
+    while (row < VARIANTS - 1 && (table[row].terms.storakers != wanted.storakers ||
+                                  table[row].terms.printed != wanted.printed ||
+                                  table[row].terms.friction != wanted.friction)) {
+        row++;
+    }
+    return table[row].kernel;
 }

@@ -50,53 +50,45 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
         }                                                                                \
     }
 
-/* {normal only, friction, friction and bridges} with the same other terms. */
-#define THREE(name, attribute, ...)                                                      \
-    VARIANT(name##_normal, attribute, __VA_ARGS__)                                       \
-    VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)                   \
-    VARIANT(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)
+/* The combinations of terms that scenes have. */
+#define THREE(X, name, attribute, ...)                                                   \
+    X(name##_normal, attribute, __VA_ARGS__)                                             \
+    X(name##_friction, attribute, .friction = true, __VA_ARGS__)                         \
+    X(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)
+#define TWO(X, name, attribute, ...)                                                     \
+    X(name##_plain, attribute, .plain = true, __VA_ARGS__)                               \
+    X(name##_plain_friction, attribute, .plain = true, .friction = true, __VA_ARGS__)
+#define COMBINATIONS(X, width, attribute)                                                \
+    THREE(X, width##_3d, attribute, .planar = false)                                     \
+    THREE(X, width##_3d_viscous, attribute, .viscous = true)                             \
+    TWO(X, width##_3d, attribute, .planar = false)                                       \
+    THREE(X, width##_2d, attribute, .planar = true)                                      \
+    THREE(X, width##_2d_viscous, attribute, .planar = true, .viscous = true)             \
+    TWO(X, width##_2d, attribute, .planar = true)                                        \
+    THREE(X, width##_sized, attribute, .sized = true)                                    \
+    THREE(X, width##_sized_viscous, attribute, .sized = true, .viscous = true)           \
+    TWO(X, width##_sized, attribute, .sized = true)
 
-/* {normal only, friction} of the cohesionless laws. */
-#define TWO(name, attribute, ...)                                                        \
-    VARIANT(name##_plain, attribute, .plain = true, __VA_ARGS__)                         \
-    VARIANT(name##_plain_friction, attribute, .plain = true, .friction = true,           \
-            __VA_ARGS__)
+struct variant {
+    struct terms terms;
+    struct gb_batch_kernel kernel;
+};
 
-#define VARIANTS(width, attribute)                                                       \
-    THREE(width##_3d, attribute, .planar = false)                                        \
-    THREE(width##_3d_viscous, attribute, .planar = false, .viscous = true)               \
-    THREE(width##_2d, attribute, .planar = true)                                         \
-    THREE(width##_2d_viscous, attribute, .planar = true, .viscous = true)                \
-    TWO(width##_3d, attribute, .planar = false)                                          \
-    TWO(width##_2d, attribute, .planar = true)                                           \
-    THREE(width##_sized, attribute, .planar = false, .sized = true)                      \
-    THREE(width##_sized_viscous, attribute, .planar = false, .sized = true,              \
-          .viscous = true)                                                               \
-    TWO(width##_sized, attribute, .planar = false, .sized = true)
+#define ROW(name, attribute, ...)                                                        \
+    {{__VA_ARGS__}, {name##_advance, name##_tally, name##_attract}},
 
-#define ROW(name)                                                                        \
-    {                                                                                    \
-        name##_advance, name##_tally, name##_attract                                     \
-    }
-#define ROWS(name)       ROW(name##_normal), ROW(name##_friction), ROW(name##_bridges)
-#define PLAIN_ROWS(name) ROW(name##_plain), ROW(name##_plain_friction)
-#define TABLE(width)                                                                     \
-    {                                                                                    \
-        ROWS(width##_3d), ROWS(width##_3d_viscous), ROWS(width##_2d),                    \
-            ROWS(width##_2d_viscous), PLAIN_ROWS(width##_3d), PLAIN_ROWS(width##_2d),    \
-            ROWS(width##_sized), ROWS(width##_sized_viscous), PLAIN_ROWS(width##_sized)  \
-    }
-
-VARIANTS(w128, )
-static const struct gb_batch_kernel table128[] = TABLE(w128);
+COMBINATIONS(VARIANT, w128, )
+static const struct variant table128[] = {COMBINATIONS(ROW, w128, )};
 #if GB_SIMD_LEVELS
-VARIANTS(w256, GB_TARGET_256)
-VARIANTS(w512, GB_TARGET_512)
-static const struct gb_batch_kernel table256[] = TABLE(w256);
-static const struct gb_batch_kernel table512[] = TABLE(w512);
+COMBINATIONS(VARIANT, w256, GB_TARGET_256)
+COMBINATIONS(VARIANT, w512, GB_TARGET_512)
+static const struct variant table256[] = {COMBINATIONS(ROW, w256, )};
+static const struct variant table512[] = {COMBINATIONS(ROW, w512, )};
 #endif
 
-static const struct gb_batch_kernel *table_for(int widest)
+enum { VARIANTS = sizeof table128 / sizeof table128[0] };
+
+static const struct variant *table_for(int widest)
 {
 #if GB_SIMD_LEVELS
     const int width = gb_simd_width(widest);
@@ -107,18 +99,28 @@ static const struct gb_batch_kernel *table_for(int widest)
 #endif
 }
 
+/* Discs of several sizes pass through the laws of spheres; cohesionless laws have no viscous
+ * partner. */
+static struct terms terms_of(const struct gb_model *model)
+{
+    const bool plain = model->terms.plain;
+    return (struct terms){
+        .planar = model->dimension == 2 && !model->polydisperse,
+        .friction = model->terms.friction || (model->terms.bridges && !plain),
+        .bridges = model->terms.bridges && !plain,
+        .viscous = gb_loading_kind_at(model->kind)->viscous_contacts && !plain,
+        .plain = plain,
+        .sized = model->polydisperse,
+    };
+}
+
 struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
 {
-    const int terms = model->terms.bridges ? 2 : model->terms.friction ? 1 : 0;
-    const int viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
-    const int planar = model->dimension == 2;
-    if (model->polydisperse) { /* behind all of one size; discs by the rows of 3D */
-        const int row =
-            model->terms.plain ? 6 + model->terms.friction : 3 * viscous + terms;
-        return table_for(widest)[16 + row];
+    const struct variant *table = table_for(widest);
+    const struct terms wanted = terms_of(model);
+    int row = 0;
+    while (row < VARIANTS - 1 && !same_terms(table[row].terms, wanted)) {
+        row++;
     }
-    if (model->terms.plain) { /* behind the four times three rows */
-        return table_for(widest)[12 + 2 * planar + model->terms.friction];
-    }
-    return table_for(widest)[6 * planar + 3 * viscous + terms];
+    return table[row].kernel;
 }

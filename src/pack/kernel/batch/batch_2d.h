@@ -13,25 +13,6 @@ INLINE double clamp_2d(double value, double most)
     return smaller(larger(value, -most), most);
 }
 
-/* Caps over stiffnesses, without the contact's size. */
-struct caps_2d {
-    double tear; /* of a bridge, squared: times (2 a)^2 */
-    double bond; /* times a */
-    double rub;  /* times f_n over a */
-    double roll; /* times f_n over a^2 */
-};
-
-INLINE struct caps_2d caps_2d(const struct gb_law_slip *slip, struct terms t)
-{
-    /* without viscous forces slightly below the cap, so that no rounding error makes a
-     * spring at rest slide */
-    const double below_cap = t.viscous ? 1.0 : 1.0 - 0x1p-40;
-    const double bond = M_PI * slip->strength / slip->shear;
-    return (struct caps_2d){0.25 * bond * bond, below_cap * bond,
-                            below_cap * slip->mu / slip->shear,
-                            t.bridges ? below_cap / (3.0 * slip->roll) : 0.0};
-}
-
 /* Radius of the springs of a contact, 0 where there is none: then root is 0. */
 INLINE double radius_2d(struct terms t, double length, double deepest, double h,
                         double root)
@@ -53,7 +34,9 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
     double *restrict last_shear = t.viscous ? PLANE(c->last_shear) : NULL;
     double *restrict last_roll = t.viscous ? PLANE(c->last_roll) : NULL;
     const struct gb_law_slip slip = model->slip;
-    const struct caps_2d caps = caps_2d(&slip, t);
+    /* without viscous forces slightly below the cap, so that no rounding error makes a
+     * spring at rest slide */
+    const struct plane_caps caps = plane_caps(&slip, t, t.viscous ? 1 : BELOW_CAP);
     const double m = slip.motion, inverse_motion = 1.0 / m, length = model->bridge.length;
     const struct normal_law law = normal_law(model, b->cutoff2);
     const double damp = b->damp, adhesion = model->adhesion;
@@ -88,7 +71,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
                 const bool fails =
                     lasts & (state > 0.0) &
                     (pulled * pulled > tear * radius_square(t, length, state, h, 1));
-                const double left = h > length ? h : 0.0;
+                const double left = deepest_left(length, h);
                 state = fails ? left : state;
             }
         }
@@ -108,7 +91,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
         double work = 0.0; /* of shear and roll, twice, without the factor of motion */
         if (t.friction) {
             const double a = radius_2d(t, length, state, h, f.root);
-            const double ks = slip.shear * a;
+            const double ks = shear_stiffness(slip.shear, a);
             const double inverse_a = 1.0 / larger(a, 1e-150);
             const double rub = held ? 1e300 : caps.rub * inverse_a * f.elastic;
             const double most = smaller(rub, caps.bond * a), cut = clamp_2d(v, most);
@@ -125,7 +108,8 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
             if (t.bridges) {
                 const bool holds = lasts & held;
                 const double g = where(holds, m * b->rotation_difference[0][k]);
-                const double p = where(holds, roll[k]) + g, kr = slip.roll * (a * a) * a;
+                const double p = where(holds, roll[k]) + g,
+                             kr = roll_stiffness(slip.roll, a * a, a);
                 const double limit =
                     caps.roll * inverse_a * inverse_a * larger(f.elastic, 0.0);
                 const double rolled_to = clamp_2d(p, limit);

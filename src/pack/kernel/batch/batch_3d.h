@@ -1,7 +1,6 @@
 #ifndef GB_PACK_KERNEL_BATCH_3D_H
 #define GB_PACK_KERNEL_BATCH_3D_H
 
-#include "pack/kernel/batch/batch_caps.h"
 #include "pack/kernel/batch/batch_laws.h"
 #include "scene/unequal_pair.h"
 
@@ -162,10 +161,8 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
     real *restrict qx = PLANE(c->roll[0]), *restrict qy = PLANE(c->roll[1]);
     real *restrict qz = PLANE(c->roll[2]);
     const real relative = (real)model->bridge.length;
-    const real k_shear = (real)model->slip.shear, k_pivot = (real)model->slip.pivot;
-    /* the caps over the stiffnesses, both squared, without the contact's size */
-    const real bond = (real)(M_PI * model->slip.strength), tear = bond * bond;
-    const real quarter = 0.25, wring = quarter * tear;
+    const struct slip_law slip = slip_law(&model->slip, &model->rod);
+    const real quarter = 0.25;
     real loose = 0.0;
 #pragma omp simd reduction(+ : loose)
     for (int k = 0; k < b->n; k++) {
@@ -184,13 +181,10 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
             qx[k] = hold * qx[k] + b->rate[4][k];
             qy[k] = hold * qy[k] + b->rate[5][k];
             qz[k] = hold * qz[k] + b->rate[6][k];
-            /* (5), (11): the cap of shear or pivoting is reached */
             const real a2 = quarter * radius_square(t, length, now, h, size.reduced);
-            const real v_squared = vx * vx + vy * vy + vz * vz;
-            const bool fails = (now > 0) & ((k_shear * k_shear * v_squared > tear * a2) |
-                                            (k_pivot * k_pivot * twist * twist > wring));
-            /* the bridge shrinks to the present overlap, or breaks; P1 below (5), (11) */
-            const real left = h > length ? h : 0;
+            const real v2 = vx * vx + vy * vy + vz * vz;
+            const bool fails = (now > 0) & breaks(&slip, a2, v2, twist);
+            const real left = deepest_left(length, h);
             now = fails ? left : now;
             deepest[k] = now;
         }
@@ -200,6 +194,113 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
         }
     }
     b->loose = loose;
+}
+
+/* M(a) by the fit of its tail. */
+INLINE real fitted_moment(struct terms t, const struct slip_law *slip,
+                          struct pair_size size, real h, real root_of)
+{
+    return t.sized ? unequal_contact_moment(slip, size, h, root_of,
+                                            moment_tail(h * size.inverse_mean))
+                   : contact_moment(slip, h, root_of, moment_tail(h));
+}
+
+/* Factor of a spring at its cap, 1 below it, and whether it is below: at a cap it gives up
+ * its dashpot. */
+INLINE void cut_spring(struct terms t, BATCH *restrict b, int spring, int k, real cap,
+                       real load2)
+{
+    const bool over = load2 > cap * cap;
+    b->kept[spring][k] = cut_to(t, cap, load2, over);
+    if (t.viscous) {
+        b->below[spring][k] = mask(!over);
+    }
+}
+
+/* Normal forces of a batch, and what the caps need of them. */
+INLINE void normal_forces_3d(const struct gb_model *model, struct terms t,
+                             BATCH *restrict b, const struct gb_contacts *restrict c,
+                             int64_t slot)
+{
+    const real *restrict deepest = PLANE(c->deepest);
+    const struct normal_law law = normal_law(model, b->cutoff2);
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const struct normal_parts parts = normal_parts(
+            t, &law, stored_size(t, b, k), deepest[k], b->overlap[k], b->distance[k]);
+        b->root[k] = parts.root;
+        b->tail_at[k] = parts.tail_at;
+        b->rod_slope[k] = parts.rod_slope;
+        b->pull[k] = parts.pull;
+    }
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const struct normal_parts parts = {b->root[k], b->tail_at[k], b->rod_slope[k],
+                                           b->pull[k]};
+        const struct normal f = normal_of(t, &law, parts, stored_size(t, b, k),
+                                          deepest[k], b->overlap[k], b->distance[k]);
+        b->along[k] = f.total;
+        b->elastic[k] = f.elastic;
+        b->normal[k] =
+            masked(bit_mask(deepest[k] >= 0), magnitude(f.elastic - f.adhesion));
+        if (!t.friction) {
+            b->sliding[k] = 0;
+        }
+        if (t.viscous) {
+            b->slope[k] = f.slope;
+        }
+    }
+}
+
+/* Stiffnesses and caps of the springs.  Not one loop with what follows: where a factor is
+ * known to be 1 the compiler would store a spring under a mask, which costs some processors
+ * (Zen) ten times a store. */
+INLINE void cut_springs_3d(const struct gb_model *model, struct terms t,
+                           BATCH *restrict b, const struct gb_contacts *restrict c,
+                           int64_t slot)
+{
+    const real *restrict deepest = PLANE(c->deepest), *restrict pivot = PLANE(c->pivot);
+    const real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
+    const real *restrict sz = PLANE(c->shear[2]);
+    const real *restrict qx = PLANE(c->roll[0]), *restrict qy = PLANE(c->roll[1]);
+    const real *restrict qz = PLANE(c->roll[2]);
+    const struct slip_law slip = slip_law(&model->slip, &model->rod);
+    const real quarter = 0.25;
+    const real relative = (real)model->bridge.length;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const real h = b->overlap[k], state = deepest[k];
+        const bool held = t.bridges & (state > 0), live = state >= 0;
+        const struct pair_size size = stored_size(t, b, k);
+        const real length = relative * size.mean;
+        const real elastic = b->elastic[k], root_of = b->root[k];
+        const real a2 =
+            where(live, quarter * radius_square(t, length, state, h, size.reduced));
+        const real a = radius(t, a2, live, root_of);
+        const real ks = shear_stiffness(slip.shear, a);
+        const real cap = shear_cap(&slip, held, a2, elastic);
+        const real vx = sx[k], vy = sy[k], vz = sz[k];
+        const real shear2 = ks * ks * (vx * vx + vy * vy + vz * vz);
+        b->stiffness[0][k] = ks;
+        b->sliding[k] = mask(shear2 > cap * cap);
+        cut_spring(t, b, 0, k, cap, shear2);
+        if (!t.unpivoted) {
+            const real kp = pivot_stiffness(slip.pivot, a2, a), p = pivot[k];
+            const real moment = MOMENT_FITTED
+                                    ? fitted_moment(t, &slip, size, larger(h, 0), root_of)
+                                    : b->moment[k];
+            b->stiffness[1][k] = kp;
+            cut_spring(t, b, 1, k, pivot_cap(&slip, held, a2, a, moment),
+                       kp * kp * p * p);
+        }
+        if (t.bridges) {
+            const real kr = roll_stiffness(slip.roll, a2, a);
+            const real px = qx[k], py = qy[k], pz = qz[k];
+            b->stiffness[2][k] = kr;
+            cut_spring(t, b, 2, k, roll_cap(a, elastic),
+                       kr * kr * (px * px + py * py + pz * pz));
+        }
+    }
 }
 
 /* Second half: springs cut at their caps; forces and torques. */
@@ -369,7 +470,7 @@ INLINE void recompute_3d(const struct gb_model *model, struct terms t, BATCH *re
         if (t.friction) {
             const real a2 =
                 where(live, quarter * radius_square(t, length, state, h, size.reduced));
-            ks = k_shear * radius(t, a2, live, f.root);
+            ks = shear_stiffness(k_shear, radius(t, a2, live, f.root));
         }
         b->r[0][k] = rx;
         b->r[1][k] = ry;

@@ -47,52 +47,60 @@
         attract(model, t, batch, NULL, NULL);                                            \
     }
 
-/* All variants of equal or of unequal sizes. */
-#define FIVE(name, attribute, ...)                                                       \
-    VARIANT(name##_normal, attribute, __VA_ARGS__)                                       \
-    VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)                   \
-    VARIANT(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)   \
-    VARIANT(name##_plain, attribute, .plain = true, .unpivoted = true, __VA_ARGS__)      \
-    VARIANT(name##_plain_friction, attribute, .friction = true, .plain = true,           \
-            .unpivoted = true, __VA_ARGS__)
+/* The combinations of terms that scenes have. */
+#define FIVE(X, name, attribute, ...)                                                    \
+    X(name##_normal, attribute, __VA_ARGS__)                                             \
+    X(name##_friction, attribute, .friction = true, __VA_ARGS__)                         \
+    X(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)         \
+    X(name##_plain, attribute, .plain = true, .unpivoted = true, __VA_ARGS__)            \
+    X(name##_plain_friction, attribute, .friction = true, .plain = true,                 \
+      .unpivoted = true, __VA_ARGS__)
+#define COMBINATIONS(X, width, attribute)                                                \
+    FIVE(X, width##_equal, attribute, .sized = false)                                    \
+    FIVE(X, width##_sized, attribute, .sized = true)
 
-#define VARIANTS(width, attribute)                                                       \
-    FIVE(width##_equal, attribute, .sized = false)                                       \
-    FIVE(width##_sized, attribute, .sized = true)
+struct variant {
+    struct terms terms;
+    struct gb_batch_f32_kernel kernel;
+};
 
-#define ROW(name)                                                                        \
-    {                                                                                    \
-        name##_advance, name##_tally, name##_attract, name##_recompute                   \
-    }
-#define ROWS(name)                                                                       \
-    ROW(name##_normal), ROW(name##_friction), ROW(name##_bridges), ROW(name##_plain),    \
-        ROW(name##_plain_friction)
-#define TABLE(width)                                                                     \
-    {                                                                                    \
-        ROWS(width##_equal), ROWS(width##_sized)                                         \
-    }
+#define ROW(name, attribute, ...)                                                        \
+    {{__VA_ARGS__}, {name##_advance, name##_tally, name##_attract, name##_recompute}},
 
-VARIANTS(w128, )
-static const struct gb_batch_f32_kernel table128[] = TABLE(w128);
+COMBINATIONS(VARIANT, w128, )
+static const struct variant table128[] = {COMBINATIONS(ROW, w128, )};
 #if GB_SIMD_LEVELS
-VARIANTS(w256, GB_TARGET_256)
-VARIANTS(w512, GB_TARGET_512)
-static const struct gb_batch_f32_kernel table256[] = TABLE(w256);
-static const struct gb_batch_f32_kernel table512[] = TABLE(w512);
+COMBINATIONS(VARIANT, w256, GB_TARGET_256)
+COMBINATIONS(VARIANT, w512, GB_TARGET_512)
+static const struct variant table256[] = {COMBINATIONS(ROW, w256, )};
+static const struct variant table512[] = {COMBINATIONS(ROW, w512, )};
 #endif
+
+enum { VARIANTS = sizeof table128 / sizeof table128[0] };
+
+static const struct variant *table_for(int widest)
+{
+#if GB_SIMD_LEVELS
+    const int width = gb_simd_width(widest);
+    return width == 512 ? table512 : width == 256 ? table256 : table128;
+#else
+    (void)widest;
+    return table128;
+#endif
+}
 
 struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int widest)
 {
-    const int law = model->terms.plain      ? 3 + model->terms.friction
-                    : model->terms.bridges  ? 2
-                    : model->terms.friction ? 1
-                                            : 0;
-    const int terms = law + (model->polydisperse ? 5 : 0);
-#if GB_SIMD_LEVELS
-    const int width = gb_simd_width(widest);
-    return (width == 512 ? table512 : width == 256 ? table256 : table128)[terms];
-#else
-    (void)widest;
-    return table128[terms];
-#endif
+    const struct variant *table = table_for(widest);
+    const bool plain = model->terms.plain, bridges = model->terms.bridges && !plain;
+    const struct terms wanted = {.friction = model->terms.friction || bridges,
+                                 .bridges = bridges,
+                                 .plain = plain,
+                                 .unpivoted = plain,
+                                 .sized = model->polydisperse};
+    int row = 0;
+    while (row < VARIANTS - 1 && !same_terms(table[row].terms, wanted)) {
+        row++;
+    }
+    return table[row].kernel;
 }
