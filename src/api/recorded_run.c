@@ -8,6 +8,7 @@
 #include "api/parameters_private.h"
 #include "base/alloc.h"
 #include "hdf/hdf_record.h"
+#include "io/curve_csv.h"
 #include "io/follow.h"
 #include "io/status/status_json.h"
 #include "run/checkpoint.h"
@@ -97,7 +98,7 @@ bool gb_recorded_run_open(struct gb_recorded_run **out, const char *directory,
     }
     if (!gb_follow_params(directory, &run->params, err) ||
         !gb_curve_create(&run->curve, err) ||
-        !gb_follow_curve(directory, &run->params, run->curve, err) ||
+        !gb_curve_csv_read(directory, &run->params, run->curve, err) ||
         !gb_follow_status(directory, &run->snapshot, &engine, err)) {
         gb_recorded_run_destroy(run);
         return false;

@@ -8,7 +8,7 @@
 #include "api/simulation_private.h"
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "io/follow.h"
+#include "io/curve_csv.h"
 
 /* --- hooks of the loop ----------------------------------------------------------- */
 
@@ -196,7 +196,7 @@ bool gb_simulation_open(struct gb_simulation *simulation, const char *directory,
     g_snprintf(simulation->resumed, sizeof simulation->resumed,
                "resumed from the checkpoint of step %" G_GINT64_FORMAT ", after %.1f s",
                gb_experiment_point(experiment)->step, seconds);
-    return gb_follow_curve(directory, &simulation->params, simulation->curve, err);
+    return gb_curve_csv_read(directory, &simulation->params, simulation->curve, err);
 }
 
 static bool create_resumed(struct gb_simulation **out, const char *directory,

@@ -2,12 +2,15 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/number.h"
+#include "base/table.h"
 #include "base/text/visible.h"
 #include "io/line_file.h"
 #include "io/point_columns.h"
 #include "scene/derived.h"
+#include "scene/path/path.h"
 
 /* ",value" with the fewest digits that read back the same; only "," where there is none.
  */
@@ -33,40 +36,6 @@ static const char *compressed_axes(const struct gb_params *params)
     }
 }
 
-static void append_columns(GString *row, const struct gb_point *point, size_t from,
-                           size_t to)
-{
-    for (size_t k = from; k < to; k++) {
-        append_number(row, gb_point_columns_value(point, k));
-    }
-}
-
-static void append_nothing(GString *row, const struct gb_point *point)
-{
-    (void)row;
-    (void)point;
-}
-
-static void append_energies(GString *row, const struct gb_point *point)
-{
-    const double values[] = {1e9 * point->time_s, point->kinetic,
-                             point->work,         point->elastic,
-                             point->dissipated,   point->energy_residual};
-    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
-        append_number(row, values[k]);
-    }
-}
-
-static void append_die(GString *row, const struct gb_point *point)
-{
-    const double values[] = {1e9 * point->time_s,     point->central,
-                             1e6 * point->height_m,   point->height_change,
-                             1e-6 * point->target_pa, point->floor_over_punch};
-    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
-        append_number(row, values[k]);
-    }
-}
-
 static const char die_note[] =
     "# die: floor_MPa and wall_friction_mN are means since the last point, while loading "
     "those of the point; wall_MPa is the radial pressure at the point, wall_low, "
@@ -84,41 +53,32 @@ static const char tensor_note[] =
     "to fyz fabric of the contacts; anisotropies of the fabric of all, bridged, tensile "
     "contacts and weighted by force; leg of loading.path\n";
 
-/* By enum gb_curve_columns: comments of the head of curve.csv, names of own columns, their
- * values, and the ranges of the table of columns that follow. */
-static const struct column_set {
-    const char *note, *names;
-    void (*append)(GString *row, const struct gb_point *point);
-    const char *table_note;
-    struct {
-        size_t from, to;
-    } range[2];
-} column_sets[] = {
+/* By enum gb_curve_columns: comments of the head of curve.csv. */
+static const struct {
+    const char *scene, *columns;
+} notes[] = {
     [GB_COLUMNS_COMMON] =
         {"# unrelaxed: 1 where the relaxation ended above its tolerance and was accepted: "
          "no equilibrium\n",
-         "",
-         append_nothing,
-         tensor_note,
-         {{0, GB_POINT_COLUMNS}, {GB_POINT_DIE_END, GB_POINT_ALL_COLUMNS}}},
+         tensor_note},
     [GB_COLUMNS_ENERGY] =
         {"# dynamic: time_ns is simulated time; kinetic, work (done by the moving cell), "
          "elastic and dissipated energy in J; energy_residual is relative to the work\n",
-         ",time_ns,kinetic,work,elastic,dissipated,energy_residual",
-         append_energies,
-         tensor_note,
-         {{0, GB_POINT_COLUMNS}}},
+         tensor_note},
     [GB_COLUMNS_DIE] =
         {"# die: p and pz are what the powder carries under the punch, px and py the "
          "mean on the side wall; density is that of the whole specimen, central_density "
          "that of a ball in its middle; height_change is relative to the height before "
          "pressing; time_ns is simulated time, wanted_MPa the scheduled pressure, "
          "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
-         ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
-         append_die,
-         die_note,
-         {{GB_POINT_COLUMNS, GB_POINT_DIE_END}}},
+         die_note},
 };
+
+/* The row of the table is a column, or several, of this kind of scene. */
+static bool has_columns(const struct gb_point_column *row, enum gb_curve_columns scene)
+{
+    return row->columns != NULL && (row->scenes >> scene & 1U) != 0;
+}
 
 GString *gb_curve_csv_head(const struct gb_params *params)
 {
@@ -139,41 +99,115 @@ GString *gb_curve_csv_head(const struct gb_params *params)
         "# p_MPa: mean pressure over the compressed axes (%s), positive "
         "in compression\n",
         compressed_axes(params));
-    const struct column_set *set = &column_sets[gb_loading_kind_of(params)->columns];
-    g_string_append(head, set->note);
-    g_string_append(head, set->table_note);
-    g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
-                          "bridged,rattlers,residual,iterations,evaluations,seconds");
-    g_string_append(head, set->names);
-    for (size_t r = 0; r < G_N_ELEMENTS(set->range); r++) {
-        for (size_t k = set->range[r].from; k < set->range[r].to; k++) {
-            g_string_append_printf(head, ",%s", gb_point_columns_name(k));
+    const enum gb_curve_columns scene = gb_loading_kind_of(params)->columns;
+    g_string_append(head, notes[scene].scene);
+    g_string_append(head, notes[scene].columns);
+    const struct gb_point_column *row;
+    for (size_t r = 0; (row = gb_point_columns_at(r)) != NULL; r++) {
+        if (has_columns(row, scene)) {
+            g_string_append_printf(head, "%s%s", r > 0 ? "," : "", row->columns);
         }
     }
     g_string_append_c(head, '\n');
     return head;
 }
 
-GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns columns)
+GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns scene)
 {
     char branch[GB_NUMBER_MAX];
-    char seconds[GB_NUMBER_MAX];
-    GString *row = g_string_new(gb_curve_branch_name(point, branch, sizeof branch));
-    g_string_append_printf(row, ",%" PRId64, point->step);
-    const double before[] = {point->density,     point->px_pa / 1e6, point->py_pa / 1e6,
-                             point->pz_pa / 1e6, point->p_pa / 1e6,  point->coordination,
-                             point->bridged,     point->rattlers,    point->residual};
-    for (size_t k = 0; k < G_N_ELEMENTS(before); k++) {
-        append_number(row, before[k]);
+    char text[G_ASCII_DTOSTR_BUF_SIZE];
+    GString *line = g_string_new(gb_curve_branch_name(point, branch, sizeof branch));
+    const struct gb_point_column *row;
+    for (size_t r = 1; (row = gb_point_columns_at(r)) != NULL; r++) {
+        for (size_t k = 0; has_columns(row, scene) && k < row->count; k++) {
+            const double value = gb_point_columns_value(row, point, k);
+            if (row->decimals > 0) {
+                char format[8];
+                g_snprintf(format, sizeof format, "%%.%df", row->decimals);
+                g_string_append_printf(line, ",%s",
+                                       g_ascii_formatd(text, sizeof text, format, value));
+            } else if (row->type == 'q') {
+                g_string_append_printf(line, ",%.0f", value);
+            } else {
+                append_number(line, value);
+            }
+        }
     }
-    g_string_append_printf(
-        row, ",%" PRId64 ",%" PRId64 ",%s", point->iterations, point->evaluations,
-        g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
-    const struct column_set *set = &column_sets[columns];
-    set->append(row, point);
-    for (size_t r = 0; r < G_N_ELEMENTS(set->range); r++) {
-        append_columns(row, point, set->range[r].from, set->range[r].to);
+    g_string_append_c(line, '\n');
+    return line;
+}
+
+/* Branch of a row by its name; unloading branches as the preset lists them. */
+static bool find_branch(const char *name, const struct gb_params *params,
+                        struct gb_point *point)
+{
+    for (int leg = 2; leg <= GB_PATH_LEGS_MAX; leg++) {
+        char text[64];
+        point->branch = GB_BRANCH_LEG - leg;
+        point->branch_from_pa = 0.0;
+        if (strcmp(gb_curve_branch_name(point, text, sizeof text), name) == 0) {
+            return true;
+        }
     }
-    g_string_append_c(row, '\n');
-    return row;
+    for (int branch = GB_BRANCH_LEAST; branch <= params->unload_count; branch++) {
+        char text[64];
+        point->branch = branch;
+        point->branch_from_pa = branch > 0 ? params->unload_from_pa[branch - 1] : 0.0;
+        if (strcmp(gb_curve_branch_name(point, text, sizeof text), name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A column of the file and the number of a point that it holds. */
+struct column {
+    const struct gb_point_column *row;
+    size_t k;
+    const double *values; /* by row of the file; NULL: the file lacks it */
+};
+
+/* Columns of every number of a point; g_array_free. */
+static GArray *find_columns(const struct gb_table *table)
+{
+    GArray *columns = g_array_new(FALSE, FALSE, sizeof(struct column));
+    const struct gb_point_column *row;
+    for (size_t r = 1; (row = gb_point_columns_at(r)) != NULL; r++) {
+        char **names = g_strsplit(row->columns != NULL ? row->columns : "", ",", -1);
+        for (size_t k = 0; names[k] != NULL; k++) {
+            const struct column column = {row, k, gb_table_column(table, names[k], NULL)};
+            g_array_append_val(columns, column);
+        }
+        g_strfreev(names);
+    }
+    return columns;
+}
+
+bool gb_curve_csv_read(const char *directory, const struct gb_params *params,
+                       struct gb_curve *curve, struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    char *path = g_build_filename(directory, "curve.csv", NULL);
+    bool done = gb_table_read(&table, path, "branch", err);
+    g_free(path);
+    if (!done) {
+        return false;
+    }
+    GArray *columns = find_columns(table);
+    for (size_t at = gb_curve_count(curve); done && at < gb_table_rows(table); at++) {
+        struct gb_point point = {0};
+        for (guint c = 0; c < columns->len; c++) {
+            const struct column *column = &g_array_index(columns, struct column, c);
+            gb_point_columns_set(column->row, &point, column->k,
+                                 column->values != NULL ? column->values[at]
+                                                        : (double)NAN);
+        }
+        done = find_branch(gb_table_word(table, at), params, &point) ||
+               gb_error_set(err, GB_ERR_INPUT, "%s/curve.csv: branch %s is not of %s",
+                            directory, gb_table_word(table, at), "its preset");
+        done = done && gb_curve_append(curve, &point, err);
+    }
+    g_array_free(columns, TRUE);
+    gb_table_destroy(table);
+    return done;
 }

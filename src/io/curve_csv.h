@@ -7,12 +7,17 @@
 #include "greenbody/params.h"
 #include "scene/loading_kind.h"
 
-/* Text of curve.csv; g_string_free. */
+/* The file curve.csv; its columns are the rows of io/point_columns.h. */
 
-/* Comment lines and the line of column names for a scene. */
+/* Comment lines and the line of column names for a scene; g_string_free. */
 GString *gb_curve_csv_head(const struct gb_params *params);
 
-/* The row of a point, with its newline. */
-GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns columns);
+/* The row of a point, with its newline; g_string_free. */
+GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns scene);
+
+/* Appends the rows of a run directory that the curve does not have yet, but not an
+ * incomplete last row.  Members without a column in the file are NaN, whole ones 0. */
+bool gb_curve_csv_read(const char *directory, const struct gb_params *params,
+                       struct gb_curve *curve, struct gb_error *err);
 
 #endif

@@ -9,12 +9,9 @@
 
 #include <glib.h>
 
-#include "base/table.h"
-#include "io/point_columns.h"
 #include "io/preset.h"
 #include "io/status/stage_text.h"
 #include "io/status/status_json.h"
-#include "scene/path/path.h"
 
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err)
@@ -33,99 +30,6 @@ bool gb_follow_params(const char *directory, struct gb_params *params,
     }
     gb_preset_destroy(preset);
     g_free(path);
-    return done;
-}
-
-/* Branch of a row by its name; unloading branches as the preset lists them. */
-static bool find_branch(const char *name, const struct gb_params *params,
-                        struct gb_point *point)
-{
-    for (int leg = 2; leg <= GB_PATH_LEGS_MAX; leg++) {
-        char text[64];
-        point->branch = GB_BRANCH_LEG - leg;
-        point->branch_from_pa = 0.0;
-        if (strcmp(gb_curve_branch_name(point, text, sizeof text), name) == 0) {
-            return true;
-        }
-    }
-    for (int branch = GB_BRANCH_LEAST; branch <= params->unload_count; branch++) {
-        char text[64];
-        point->branch = branch;
-        point->branch_from_pa = branch > 0 ? params->unload_from_pa[branch - 1] : 0.0;
-        if (strcmp(gb_curve_branch_name(point, text, sizeof text), name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-struct column {
-    const char *name;
-    size_t offset;
-    double factor; /* to the unit of the point */
-    bool whole;    /* int64_t */
-};
-
-#define AT(member) offsetof(struct gb_point, member)
-static const struct column columns[] = {
-    {"step", AT(step), 1.0, true},
-    {"density", AT(density), 1.0, false},
-    {"px_MPa", AT(px_pa), 1e6, false},
-    {"py_MPa", AT(py_pa), 1e6, false},
-    {"pz_MPa", AT(pz_pa), 1e6, false},
-    {"p_MPa", AT(p_pa), 1e6, false},
-    {"coordination", AT(coordination), 1.0, false},
-    {"bridged", AT(bridged), 1.0, false},
-    {"rattlers", AT(rattlers), 1.0, false},
-    {"residual", AT(residual), 1.0, false},
-    {"iterations", AT(iterations), 1.0, true},
-    {"evaluations", AT(evaluations), 1.0, true},
-    {"seconds", AT(seconds), 1.0, false},
-    {"time_ns", AT(time_s), 1e-9, false},
-    {"kinetic", AT(kinetic), 1.0, false},
-    {"work", AT(work), 1.0, false},
-    {"elastic", AT(elastic), 1.0, false},
-    {"dissipated", AT(dissipated), 1.0, false},
-    {"energy_residual", AT(energy_residual), 1.0, false},
-};
-#undef AT
-
-static void fill_point(const struct gb_table *table, size_t row, struct gb_point *point)
-{
-    for (size_t k = 0; k < G_N_ELEMENTS(columns); k++) {
-        const double *values = gb_table_column(table, columns[k].name, NULL);
-        const double value = values != NULL ? values[row] * columns[k].factor : NAN;
-        char *member = (char *)point + columns[k].offset;
-        if (columns[k].whole) {
-            const int64_t number = fabs(value) < 9e15 ? (int64_t)value : 0;
-            memcpy(member, &number, sizeof number);
-        } else {
-            memcpy(member, &value, sizeof value);
-        }
-    }
-    for (size_t k = 0; k < GB_POINT_ALL_COLUMNS; k++) {
-        const double *values = gb_table_column(table, gb_point_columns_name(k), NULL);
-        *gb_point_columns_member(point, k) =
-            values != NULL ? values[row] * gb_point_columns_factor(k) : NAN;
-    }
-}
-
-bool gb_follow_curve(const char *directory, const struct gb_params *params,
-                     struct gb_curve *curve, struct gb_error *err)
-{
-    struct gb_table *table = NULL;
-    char *path = g_build_filename(directory, "curve.csv", NULL);
-    bool done = gb_table_read(&table, path, "branch", err);
-    g_free(path);
-    for (size_t row = gb_curve_count(curve); done && row < gb_table_rows(table); row++) {
-        struct gb_point point = {0};
-        done = find_branch(gb_table_word(table, row), params, &point) ||
-               gb_error_set(err, GB_ERR_INPUT, "%s/curve.csv: branch %s is not of %s",
-                            directory, gb_table_word(table, row), "its preset");
-        fill_point(table, row, &point);
-        done = done && gb_curve_append(curve, &point, err);
-    }
-    gb_table_destroy(table);
     return done;
 }
 

@@ -14,11 +14,6 @@
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err);
 
-/* Appends the rows of curve.csv that the curve does not have yet, but not an incomplete
- * last row. */
-bool gb_follow_curve(const char *directory, const struct gb_params *params,
-                     struct gb_curve *curve, struct gb_error *err);
-
 /* The process that computes the run. */
 struct gb_follow_engine {
     long long pid;

@@ -5,34 +5,69 @@
 #include <stddef.h>
 
 #include "base/record.h"
-#include "greenbody/curve.h"
+#include "greenbody/point.h"
+#include "scene/loading_kind.h"
 
-/* The last columns of curve.csv: those of the tensors of a periodic cell, behind them in
- * the table those of a die and of strain steps.  One table for writing, reading and
- * checkpoints. */
+/* The columns of a recorded point: one row per member of struct gb_point, in its order.
+ * curve.csv, status.json, state.h5, checkpoints, the library and Python iterate over these
+ * rows.  A new quantity needs a member, a row, and the line that measures it
+ * (run/packing_state.c). */
+
+/* Kinds of scenes: bits of enum gb_curve_columns. */
 enum {
-    GB_POINT_COLUMNS = 22,     /* of a cell */
-    GB_POINT_DIE_COLUMNS = 10, /* of a die */
-    GB_POINT_STEP_COLUMNS = 1, /* of strain steps */
-    GB_POINT_DIE_END = GB_POINT_COLUMNS + GB_POINT_DIE_COLUMNS,
-    GB_POINT_ALL_COLUMNS = GB_POINT_DIE_END + GB_POINT_STEP_COLUMNS
+    GB_POINT_STILL = 1 << GB_COLUMNS_COMMON,
+    GB_POINT_MOVING = 1 << GB_COLUMNS_ENERGY,
+    GB_POINT_DIE = 1 << GB_COLUMNS_DIE,
+    GB_POINT_CELL = GB_POINT_STILL | GB_POINT_MOVING, /* periodic cells */
+    GB_POINT_TIMED = GB_POINT_MOVING | GB_POINT_DIE,
+    GB_POINT_ALL = GB_POINT_CELL | GB_POINT_DIE
 };
 
-/* Name of column k < GB_POINT_ALL_COLUMNS, with its unit. */
-const char *gb_point_columns_name(size_t k);
-/* Its unit in that of the point's member. */
-double gb_point_columns_factor(size_t k);
-/* The point's member. */
-double *gb_point_columns_member(struct gb_point *point, size_t k);
-/* Those of a cell as one item of a record, out of the point or into it, those of a die, and
- * those of strain steps.  Records of earlier versions have none: NaN. */
-bool gb_point_columns_record(struct gb_point *point, const char *name,
-                             struct gb_record *record, struct gb_error *err);
-bool gb_point_columns_record_die(struct gb_point *point, const char *name,
-                                 struct gb_record *record, struct gb_error *err);
-bool gb_point_columns_record_step(struct gb_point *point, const char *name,
-                                  struct gb_record *record, struct gb_error *err);
-/* The value in the unit of the column. */
-double gb_point_columns_value(const struct gb_point *point, size_t k);
+struct gb_point_column {
+    const char *member; /* its name in C and Python, with the SI unit */
+    size_t offset, count;
+    char type;       /* 'd' (double), 'q' (int64_t), 'i' (int) */
+    unsigned scenes; /* that measure it and have its columns; NaN in the others */
+    /* Names in curve.csv with their unit, one per number, a comma between two; NULL: none.
+     * `si` is one unit in SI.  Numbers are divided by it, unless `times` is given: they are
+     * multiplied by that, which keeps their last digits. */
+    const char *columns;
+    double si, times;
+    int decimals; /* 0: as many as the number needs */
+    /* Item of a checkpoint, its unit, and the scenes whose checkpoints have it.  Successive
+     * rows with one item share it.  later: checkpoints of earlier versions lack it. */
+    const char *item, *unit;
+    unsigned kept;
+    bool later;
+    /* Name in state.h5 (NULL: none), the first layout with it, and a value that makes a
+     * state unreadable if it is infinite. */
+    const char *state;
+    int layout;
+    bool finite;
+    const char *status; /* name in status.json; NULL: none */
+};
+
+/* Row `index`; NULL after the last. */
+const struct gb_point_column *gb_point_columns_at(size_t index);
+
+/* Number k of the member, in the unit of its column; not of the branch. */
+double gb_point_columns_value(const struct gb_point_column *row,
+                              const struct gb_point *point, size_t k);
+/* Sets it from a value in that unit. */
+void gb_point_columns_set(const struct gb_point_column *row, struct gb_point *point,
+                          size_t k, double value);
+
+/* Every member that some kind of scene lacks becomes NaN. */
+void gb_point_columns_clear(struct gb_point *point);
+
+/* Saves the point as items "prefix/density" and so on. */
+bool gb_point_columns_save(const struct gb_point *point, const char *prefix,
+                           enum gb_curve_columns scene, struct gb_record *record,
+                           struct gb_error *err);
+/* Loads the members that this kind of scene measures; the others stay as they are.  A
+ * missing item is NaN if earlier versions lack it.  Errors: GB_ERR_INPUT. */
+bool gb_point_columns_load(struct gb_point *point, const char *prefix,
+                           enum gb_curve_columns scene, const struct gb_record *record,
+                           struct gb_error *err);
 
 #endif

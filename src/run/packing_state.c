@@ -42,14 +42,6 @@ static double second_per_time(const struct gb_loading *loading)
                         : loading->model->dynamics.second_per_time;
 }
 
-/* Members of periodic cells. */
-static void leave_tensors_empty(struct gb_point *point)
-{
-    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
-        *gb_point_columns_member(point, k) = NAN;
-    }
-}
-
 /* Pressures beside the normal ones, strain of the cell, fabric of the contacts. */
 static void measure_tensors(const struct gb_loading *loading, const double pressure[3][3],
                             const struct gb_fabric *fabric, struct gb_point *point)
@@ -73,19 +65,6 @@ static void measure_tensors(const struct gb_loading *loading, const double press
         point->strain[1] = point->strain[3] = point->strain[5] = NAN;
         point->fabric[1] = point->fabric[3] = point->fabric[5] = NAN;
     }
-}
-
-/* Members of dies and of dynamic scenes. */
-static void leave_empty(struct gb_point *point)
-{
-    for (size_t k = GB_POINT_COLUMNS; k < GB_POINT_ALL_COLUMNS; k++) {
-        *gb_point_columns_member(point, k) = NAN;
-    }
-    const double none = (double)NAN;
-    point->time_s = point->kinetic = point->work = point->elastic = none;
-    point->dissipated = point->energy_residual = none;
-    point->central = point->height_m = point->height_change = none;
-    point->target_pa = point->floor_over_punch = none;
 }
 
 /* state.h5 does not name the stages of a run at a given rate. */
@@ -124,7 +103,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
         .rattlers = (double)counts.rattlers / (double)model->count,
         .residual = report.residual,
     };
-    leave_empty(point);
+    gb_point_columns_clear(point);
     measure_tensors(loading, (const double(*)[3])tensor, &fabric, point);
     point->unrelaxed = report.unrelaxed;
     point->leg = report.leg > 0 ? report.leg : (double)NAN;
@@ -172,8 +151,7 @@ static void measure_die(const struct gb_loading *loading, struct gb_point *point
         .iterations = report.iterations,
         .evaluations = report.evaluations,
     };
-    leave_empty(point);
-    leave_tensors_empty(point);
+    gb_point_columns_clear(point);
     point->time_s = report.time * model->die.second_per_time;
     point->central =
         gb_observe_die_central(loading->bed, report.height, model->die.central_radius);

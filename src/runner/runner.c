@@ -17,6 +17,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/thread.h"
+#include "io/curve_csv.h"
 #include "io/follow.h"
 #include "io/rundir.h"
 #include "run/change.h"
@@ -475,7 +476,7 @@ static bool read_run(struct gb_runner *runner)
     struct gb_follow_engine engine = {0};
     struct gb_error err = {0};
     if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
-        !gb_follow_curve(runner->directory, &runner->params, runner->simulation->curve,
+        !gb_curve_csv_read(runner->directory, &runner->params, runner->simulation->curve,
                          &err)) {
         if (shown->error.code == GB_OK) {
             publish_event(runner, err.text);

@@ -10,7 +10,9 @@
 #include <glib/gstdio.h>
 #include <json-glib/json-glib.h>
 
+#include "io/curve_csv.h"
 #include "io/follow.h"
+#include "io/point_columns.h"
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/rundir_files.h"
@@ -173,6 +175,48 @@ static void test_dynamic_rows(void)
                             "-0.0002,0,-4,0,0,0,0,0,0,0,0.25,0,"));
     g_free(curve);
     g_free(directory);
+}
+
+/* A row of each kind of scene, read back: every member that it measures has its value, the
+ * others are NaN. */
+static void test_read_back(void)
+{
+    for (int kind = GB_KIND_QUASISTATIC; kind <= GB_KIND_DIE; kind++) {
+        char *name = g_strdup_printf("run%d", kind), *directory = in_base(name);
+        struct gb_params params = some_params();
+        struct gb_error err = {0};
+        struct gb_store *store = NULL;
+        struct gb_curve *curve = NULL;
+        struct gb_point point = {0};
+        const struct gb_point_column *row;
+        params.kind = (enum gb_kind)kind;
+        for (size_t r = 1; (row = gb_point_columns_at(r)) != NULL; r++) {
+            for (size_t k = 0; row->columns != NULL && k < row->count; k++) {
+                gb_point_columns_set(row, &point, k, (double)(1 + 10 * r + k));
+            }
+        }
+        g_assert_true(gb_store_create(&store, directory, &params, GB_RUNDIR_KEEP, &err));
+        g_assert_true(gb_store_point(store, &point, &err));
+        gb_store_destroy(store);
+        g_assert_true(gb_curve_create(&curve, &err));
+        g_assert_true(gb_curve_csv_read(directory, &params, curve, &err));
+        g_assert_cmpuint(gb_curve_count(curve), ==, 1);
+        for (size_t r = 1; (row = gb_point_columns_at(r)) != NULL; r++) {
+            const bool has = row->scenes >> gb_loading_kind_of(&params)->columns & 1U;
+            for (size_t k = 0; row->columns != NULL && k < row->count; k++) {
+                const double value =
+                    gb_point_columns_value(row, gb_curve_at(curve, 0), k);
+                if (has) {
+                    g_assert_cmpfloat_with_epsilon(value, (double)(1 + 10 * r + k), 1e-9);
+                } else {
+                    g_assert_true(isnan(value));
+                }
+            }
+        }
+        gb_curve_destroy(curve);
+        g_free(directory);
+        g_free(name);
+    }
 }
 
 static void test_preset(void)
@@ -528,6 +572,7 @@ int main(int argc, char **argv)
     } tests[] = {
         {"/store/rows", test_rows},
         {"/store/dynamic-rows", test_dynamic_rows},
+        {"/store/read-back", test_read_back},
         {"/store/preset", test_preset},
         {"/store/status", test_status},
         {"/store/foreign-status", test_foreign_status},

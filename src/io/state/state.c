@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "hdf/hdf.h"
 #include "hdf/hdf_record.h"
+#include "io/point_columns.h"
 #include "io/state/state_array.h"
 #include "io/state/state_check.h"
 #include "io/state/state_optional.h"
@@ -53,7 +54,8 @@ static const struct array_row arrays[] = {
 /* First layout with a kind of rows. */
 static const int32_t row_layout[ROW_KINDS] = {[WALL] = 5};
 
-/* A number of the file's root group: unit in the name, as in curve.csv and the struct. */
+/* A number of the file's root group: unit in the name, as in curve.csv and the struct.
+ * Numbers of the point are rows of io/point_columns.h. */
 struct number_row {
     const char *name;
     enum gb_hdf_type type;
@@ -72,24 +74,6 @@ static const struct number_row numbers[] = {
     {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress),
      0},
     {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed), 0},
-    {"branch_from_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.branch_from_pa),
-     0},
-    {"step", GB_HDF_INT64, 1, offsetof(struct gb_state, point.step), 0},
-    {"density", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.density), 0},
-    {"px_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.px_pa), 0},
-    {"py_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.py_pa), 0},
-    {"pz_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.pz_pa), 0},
-    {"p_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.p_pa), 0},
-    {"coordination", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.coordination), 0},
-    {"bridged", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.bridged), 0},
-    {"rattlers", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.rattlers), 0},
-    {"residual", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.residual), 0},
-    {"iterations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.iterations), 0},
-    {"evaluations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.evaluations), 0},
-    {"seconds", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.seconds), 0},
-    {"shear_stress_pa", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, point.shear_pa), 4},
-    {"strain", GB_HDF_DOUBLE, 6, offsetof(struct gb_state, point.strain), 4},
-    {"fabric", GB_HDF_DOUBLE, 6, offsetof(struct gb_state, point.fabric), 4},
 };
 
 enum {
@@ -235,6 +219,11 @@ static void digest(const struct gb_state *state, int32_t layout, char text[DIGES
     g_checksum_free(sum);
 }
 
+static enum gb_hdf_type type_of(const struct gb_point_column *row)
+{
+    return row->type == 'q' ? GB_HDF_INT64 : GB_HDF_DOUBLE;
+}
+
 static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
                           struct gb_error *err)
 {
@@ -256,6 +245,14 @@ static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
         const struct number_row *row = &numbers[k];
         if (!gb_hdf_attributes_put_numbers(file, row->name, row->type, row->count,
                                            (const char *)state + row->offset, err)) {
+            return false;
+        }
+    }
+    const struct gb_point_column *row;
+    for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
+        if (row->state != NULL && !gb_hdf_attributes_put_numbers(
+                                      file, row->state, type_of(row), (int)row->count,
+                                      (const char *)&state->point + row->offset, err)) {
             return false;
         }
     }
@@ -319,6 +316,15 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t la
         if (layout >= row->layout &&
             !gb_hdf_attributes_get_numbers(file, row->name, row->type, row->count,
                                            (char *)state + row->offset, err)) {
+            return false;
+        }
+    }
+    const struct gb_point_column *row;
+    for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
+        if (row->state != NULL && layout >= row->layout &&
+            !gb_hdf_attributes_get_numbers(file, row->state, type_of(row),
+                                           (int)row->count,
+                                           (char *)&state->point + row->offset, err)) {
             return false;
         }
     }

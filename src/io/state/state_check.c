@@ -1,10 +1,11 @@
 #include "io/state/state_check.h"
-#include "scene/path/path.h"
 
 #include <math.h>
 #include <stddef.h>
 
+#include "io/point_columns.h"
 #include "pack/die/die.h"
+#include "scene/path/path.h"
 
 /* Beyond this a length is nonsense rather than large; d. */
 static const double length_max = 1e9;
@@ -13,20 +14,6 @@ static bool positive(double x, double limit)
 {
     return isfinite(x) && x > 0.0 && x <= limit;
 }
-
-/* NaN marks a value that does not exist; nothing of a packing is infinite. */
-static const struct {
-    const char *name;
-    size_t offset;
-} finite_numbers[] = {
-    {"density", offsetof(struct gb_state, point.density)},
-    {"px_pa", offsetof(struct gb_state, point.px_pa)},
-    {"py_pa", offsetof(struct gb_state, point.py_pa)},
-    {"pz_pa", offsetof(struct gb_state, point.pz_pa)},
-    {"p_pa", offsetof(struct gb_state, point.p_pa)},
-    {"coordination", offsetof(struct gb_state, point.coordination)},
-    {"seconds", offsetof(struct gb_state, point.seconds)},
-};
 
 /* A branch of loading and unloading, a stage, or a leg from the second on. */
 static bool is_branch(int branch)
@@ -54,11 +41,11 @@ static const char *header_fault(const struct gb_state *state)
     if (state->point.step < 0 || !is_branch(state->point.branch)) {
         return state->point.step < 0 ? "step" : "branch";
     }
-    for (size_t k = 0; k < sizeof finite_numbers / sizeof finite_numbers[0]; k++) {
-        const double *value = (const double *)(const void *)((const char *)state +
-                                                             finite_numbers[k].offset);
-        if (isinf(*value)) {
-            return finite_numbers[k].name;
+    /* NaN marks a value that does not exist; nothing of a packing is infinite */
+    const struct gb_point_column *row;
+    for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
+        if (row->finite && isinf(gb_point_columns_value(row, &state->point, 0))) {
+            return row->state;
         }
     }
     return NULL;

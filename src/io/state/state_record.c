@@ -34,54 +34,12 @@ static bool take(const struct gb_record *record, const char *name,
     return true;
 }
 
-static bool take_point(const struct gb_record *record, struct gb_point *point,
-                       struct gb_error *err)
+/* The members of the point that this kind of scene measures. */
+static bool take_point(const struct gb_record *record, const struct gb_model *model,
+                       struct gb_state *state, struct gb_error *err)
 {
-    const struct {
-        const char *name;
-        double *value;
-    } numbers[] = {
-        {"shown/branch_from", &point->branch_from_pa},
-        {"shown/density", &point->density},
-        {"shown/px", &point->px_pa},
-        {"shown/py", &point->py_pa},
-        {"shown/pz", &point->pz_pa},
-        {"shown/p", &point->p_pa},
-        {"shown/coordination", &point->coordination},
-        {"shown/bridged", &point->bridged},
-        {"shown/rattlers", &point->rattlers},
-        {"shown/residual", &point->residual},
-    };
-    int32_t branch = 0;
-    bool done = take(record, "shown/branch", GB_RECORD_INT32, 1, 1, &branch, err) &&
-                take(record, "shown/step", GB_RECORD_INT64, 1, 1, &point->step, err) &&
-                take(record, "shown/iterations", GB_RECORD_INT64, 1, 1,
-                     &point->iterations, err) &&
-                take(record, "shown/evaluations", GB_RECORD_INT64, 1, 1,
-                     &point->evaluations, err);
-    point->branch = branch;
-    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0] && done; k++) {
-        done =
-            take(record, numbers[k].name, GB_RECORD_DOUBLE, 1, 1, numbers[k].value, err);
-    }
-    return done;
-}
-
-/* What records of scenes without shear, or of earlier versions, lack. */
-static bool take_tensors(const struct gb_record *record, struct gb_state *state,
-                         struct gb_error *err)
-{
-    double value[GB_POINT_COLUMNS];
-    const bool known = gb_record_find(record, "shown/tensors") != NULL;
-    if (known && !take(record, "shown/tensors", GB_RECORD_DOUBLE, 1, GB_POINT_COLUMNS,
-                       value, err)) {
-        return false;
-    }
-    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
-        *gb_point_columns_member(&state->point, k) = known ? value[k] : (double)NAN;
-    }
-    return !gb_record_find(record, "world/tilt") ||
-           take(record, "world/tilt", GB_RECORD_DOUBLE, 1, 3, state->tilt, err);
+    return gb_point_columns_load(&state->point, "shown",
+                                 gb_loading_kind_at(model->kind)->columns, record, err);
 }
 
 /* Coordination numbers. */
@@ -267,7 +225,7 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
     if (!take_die(record, model, &die, err) ||
         !take(record, "bed/place", GB_RECORD_DOUBLE, state->count, 4, position, err) ||
         !take(record, "bed/normal", GB_RECORD_DOUBLE, n, 1, state->pair_normal, err) ||
-        !take_point(record, &state->point, err)) {
+        !take_point(record, model, state, err)) {
         return false;
     }
     for (int end = 0; end < 2; end++) {
@@ -323,7 +281,9 @@ static bool fill_cell(struct gb_state *state, const struct gb_record *record,
         !take(record, "world/position", GB_RECORD_DOUBLE, count, 3, state->position,
               err) ||
         !gb_assign_sizes_model(model, state->radius, err) ||
-        !take_tensors(record, state, err) || !take_point(record, &state->point, err) ||
+        !take_point(record, model, state, err) ||
+        (gb_record_find(record, "world/tilt") &&
+         !take(record, "world/tilt", GB_RECORD_DOUBLE, 1, 3, state->tilt, err)) ||
         !count_contacts(state, record, err)) {
         return false;
     }

@@ -4,10 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <glib.h>
+
 #include "base/alloc.h"
 #include "base/read_file.h"
+#include "io/point_columns.h"
 #include "io/status/stage_text.h"
-#include <glib.h>
 
 enum { BYTES_MOST = 1 << 20, DEPTH_MOST = 8 };
 
@@ -171,14 +173,19 @@ static void add_stage(JsonBuilder *json, const struct gb_stage_report *stage)
 static void add_progress(JsonBuilder *json, const struct gb_snapshot *shot,
                          int64_t points)
 {
-    const struct gb_point *now = &shot->now;
-    const bool known = shot->now_valid;
+    const struct gb_point_column *row;
     add_double(json, "progress", shot->progress);
     add_integer(json, "points", points);
-    add_integer(json, "step", known ? now->step : 0);
-    add_double(json, "density", known ? now->density : (double)NAN);
-    add_double(json, "pressure_MPa", known ? now->p_pa / 1e6 : (double)NAN);
-    add_double(json, "coordination", known ? now->coordination : (double)NAN);
+    for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
+        const double value = shot->now_valid && row->status != NULL
+                                 ? gb_point_columns_value(row, &shot->now, 0)
+                                 : (double)NAN;
+        if (row->status != NULL && row->type == 'q') {
+            add_integer(json, row->status, isnan(value) ? 0 : (int64_t)value);
+        } else if (row->status != NULL) {
+            add_double(json, row->status, value);
+        }
+    }
     add_integer(json, "evaluations", shot->evaluations);
     add_double(json, "evaluations_per_s", shot->evaluations_per_s);
     add_double(json, "particle_evaluations_per_s", shot->particle_evaluations_per_s);
