@@ -12,29 +12,48 @@
 #include "tui/session/pressure_rows.h"
 #include "tui/session/session.h"
 
-/* The pane of the state: numbers as text, the quantities with a row each, and the columns. */
+/* The pane of the state: numbers as text, one row per quantity, and the columns. */
 
-/* Quantities of the state pane.  A new one is a writing function and a row. */
-struct panel_state_item {
-    const char *brief, *name; /* for narrow and wide columns */
-    void (*write)(const struct gb_session_shown *shown, char *text, size_t size);
-    int rank; /* of importance, for panes that are too small for all; 0 is the first */
+/* What a quantity needs to be listed. */
+enum need { NOTHING, SOLID /* three dimensions */, LEGS /* loading.path */, SHEAR };
+
+/* When it has a value: from the first point on, after an evaluation, at once. */
+enum from { POINT, EVALUATION, START };
+
+/* A quantity of the state pane: a row of a list below.  Names are for narrow and wide
+ * columns; rank is its importance in panes that are too small for all, 0 the first. */
+struct item {
+    const char *brief, *name;
+    int rank;
+    void (*write)(const struct item *item, const struct gb_session_shown *shown,
+                  char *text, size_t size);
+    size_t at;          /* its number in struct gb_snapshot, a double */
+    const char *format; /* of write_number and write_percent */
+    enum need need;
+    int component; /* of a shear: of the strain */
+    enum from from;
 };
 
-enum { GB_PANEL_STATE_ITEMS = 20 };
+enum { ITEMS_MOST = 20 };
 
 /* The items that apply to a run, in the order of the columns and of importance. */
-struct panel_state_choice {
-    const struct panel_state_item *item[GB_PANEL_STATE_ITEMS];
-    const struct panel_state_item *by_rank[GB_PANEL_STATE_ITEMS];
+struct choice {
+    const struct item *item[ITEMS_MOST];
+    const struct item *by_rank[ITEMS_MOST];
     int count;
 };
 
 /* Numbers of the state pane; "-" for what is not finite. */
 
+static double value_of(const struct item *item, const struct gb_session_shown *shown)
+{
+    double value;
+    memcpy(&value, (const char *)shown->now + item->at, sizeof value);
+    return value;
+}
+
 /* By a format of printf for one double. */
-static void panel_state_text_number(char *text, size_t size, const char *format,
-                                    double value)
+static void put_number(char *text, size_t size, const char *format, double value)
 {
     if (isfinite(value)) {
         snprintf(text, size, format, value);
@@ -44,8 +63,7 @@ static void panel_state_text_number(char *text, size_t size, const char *format,
 }
 
 /* "812", "6.31 k", "12.3 M": three digits. */
-/* "812", "6.31 k", "12.3 M": three digits. */
-static void panel_state_text_count(char *text, size_t size, double value)
+static void put_count(char *text, size_t size, double value)
 {
     static const char *const prefix[] = {"", "k", "M", "G", "T"};
     size_t k = 0;
@@ -60,9 +78,10 @@ static void panel_state_text_count(char *text, size_t size, double value)
 }
 
 /* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
-/* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
-static void panel_state_text_energy(char *text, size_t size, double value)
+static void write_energy(const struct item *item, const struct gb_session_shown *shown,
+                         char *text, size_t size)
 {
+    double value = value_of(item, shown);
     static const char *const prefix[] = {"", "m", "u", "n", "p", "f", "a"};
     size_t k = 0;
     while (fabs(value) < 0.9995 && k < 6) {
@@ -80,8 +99,8 @@ static void panel_state_text_energy(char *text, size_t size, double value)
 }
 
 /* All four pressures in the unit of the largest, for comparison. */
-static void write_pressure(const struct gb_snapshot *now, double value, char *text,
-                           size_t size)
+static void put_pressure(const struct gb_snapshot *now, double value, char *text,
+                         size_t size)
 {
     const double max =
         fmax(fmax(fabs(now->now.p_pa), fabs(now->now.pz_pa)), fabs(now->now.px_pa));
@@ -94,109 +113,104 @@ static void write_pressure(const struct gb_snapshot *now, double value, char *te
     }
 }
 
-static void density(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_pressure(const struct item *item, const struct gb_session_shown *shown,
+                           char *text, size_t size)
 {
-    panel_state_text_number(text, size, "%.4f", shown->now->now.density);
+    put_pressure(shown->now, value_of(item, shown), text, size);
 }
 
-static void contacts(const struct gb_session_shown *shown, char *text, size_t size)
+/* Shear stresses have the sign of the shear, as in loading.path. */
+static void write_stress(const struct item *item, const struct gb_session_shown *shown,
+                         char *text, size_t size)
 {
-    panel_state_text_number(text, size, "%.2f", shown->now->now.coordination);
+    put_pressure(shown->now, -value_of(item, shown), text, size);
 }
 
-static void bridged(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_number(const struct item *item, const struct gb_session_shown *shown,
+                         char *text, size_t size)
 {
-    const double percent = 100.0 * shown->now->now.bridged;
-    panel_state_text_number(text, size, percent >= 99.95 ? "%.0f %%" : "%.1f %%",
-                            percent);
+    put_number(text, size, item->format, value_of(item, shown));
 }
 
-static void rattlers(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_percent(const struct item *item, const struct gb_session_shown *shown,
+                          char *text, size_t size)
 {
-    panel_state_text_number(text, size, "%.1f %%", 100.0 * shown->now->now.rattlers);
+    put_number(text, size, item->format, 100.0 * value_of(item, shown));
 }
 
-static void p(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_bridged(const struct item *item, const struct gb_session_shown *shown,
+                          char *text, size_t size)
 {
-    write_pressure(shown->now, shown->now->now.p_pa, text, size);
+    const double percent = 100.0 * value_of(item, shown);
+    put_number(text, size, percent >= 99.95 ? "%.0f %%" : "%.1f %%", percent);
 }
 
-static void px(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_nanoseconds(const struct item *item,
+                              const struct gb_session_shown *shown, char *text,
+                              size_t size)
 {
-    write_pressure(shown->now, shown->now->now.px_pa, text, size);
+    const double ns = 1e9 * value_of(item, shown);
+    put_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
 }
 
-static void py(const struct gb_session_shown *shown, char *text, size_t size)
+/* Lengths, "24.1 um"; times, "40.6 us". */
+static void put_unit(double value, enum gb_dimension dimension, char *text, size_t size)
 {
-    write_pressure(shown->now, shown->now->now.py_pa, text, size);
-}
-
-static void pz(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_pressure(shown->now, shown->now->now.pz_pa, text, size);
-}
-
-static void simulated(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    const double ns = 1e9 * shown->now->now.time_s;
-    panel_state_text_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
-}
-
-static void stage(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    snprintf(text, size, "%s", gb_panel_plot_stage(shown->now->now.branch));
-}
-
-static void kinetic(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_energy(text, size, shown->now->now.kinetic);
-}
-
-static void work(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_energy(text, size, shown->now->now.work);
-}
-
-static void elastic(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_energy(text, size, shown->now->now.elastic);
-}
-
-static void dissipated(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_energy(text, size, shown->now->now.dissipated);
-}
-
-static void energy_error(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_number(text, size, "%.2g %%",
-                            100.0 * shown->now->now.energy_residual);
-}
-
-static void time_step(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    if (shown->now->time_step_s > 0.0) {
-        gb_units_format_short(shown->now->time_step_s, GB_DIM_TIME, 3, text, size);
+    if (isfinite(value)) {
+        gb_units_format_short(value, dimension, 3, text, size);
     }
 }
 
-static void residual(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_length(const struct item *item, const struct gb_session_shown *shown,
+                         char *text, size_t size)
 {
-    panel_state_text_number(text, size, "%.0e", shown->now->live_residual);
+    put_unit(value_of(item, shown), GB_DIM_LENGTH, text, size);
 }
 
-static void evaluations(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_time(const struct item *item, const struct gb_session_shown *shown,
+                       char *text, size_t size)
 {
-    panel_state_text_count(text, size, (double)shown->now->evaluations);
+    put_unit(value_of(item, shown), GB_DIM_TIME, text, size);
 }
 
-static void rate(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_time_step(const struct item *item, const struct gb_session_shown *shown,
+                            char *text, size_t size)
 {
-    panel_state_text_count(text, size, shown->now->evaluations_per_s);
+    if (value_of(item, shown) > 0.0) {
+        write_time(item, shown, text, size);
+    }
+}
+
+static void write_rate(const struct item *item, const struct gb_session_shown *shown,
+                       char *text, size_t size)
+{
+    put_count(text, size, value_of(item, shown));
+}
+
+static void write_evaluations(const struct item *item,
+                              const struct gb_session_shown *shown, char *text,
+                              size_t size)
+{
+    (void)item;
+    put_count(text, size, (double)shown->now->evaluations);
+}
+
+static void write_poured(const struct item *item, const struct gb_session_shown *shown,
+                         char *text, size_t size)
+{
+    (void)item;
+    snprintf(text, size, "%lld", (long long)shown->now->stage.poured);
+}
+
+static void write_stage(const struct item *item, const struct gb_session_shown *shown,
+                        char *text, size_t size)
+{
+    (void)item;
+    snprintf(text, size, "%s", gb_panel_plot_stage(shown->now->now.branch));
 }
 
 /* "0.7 s", "12:34", "3:04:05"; returns text. */
-static char *panel_state_items_duration(double seconds, char *text, size_t size)
+static char *put_duration(double seconds, char *text, size_t size)
 {
     if (seconds >= 0.0 && seconds < 59.95) {
         snprintf(text, size, "%.1f s", seconds);
@@ -205,186 +219,123 @@ static char *panel_state_items_duration(double seconds, char *text, size_t size)
     return gb_paint_time(seconds, text, size);
 }
 
-static void elapsed_time(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_duration(const struct item *item, const struct gb_session_shown *shown,
+                           char *text, size_t size)
 {
-    panel_state_items_duration(shown->now->seconds, text, size);
+    put_duration(value_of(item, shown), text, size);
 }
 
-static void leg(const struct gb_session_shown *shown, char *text, size_t size)
+static void write_leg(const struct item *item, const struct gb_session_shown *shown,
+                      char *text, size_t size)
 {
     struct gb_path path;
-    const double number = shown->now->now.leg;
+    const double number = value_of(item, shown);
     if (isfinite(number) &&
         gb_path_parse(&path, shown->params->path, shown->params->dimension, NULL)) {
         snprintf(text, size, "%.0f of %d", number, path.count);
     }
 }
 
-static void q(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_pressure(shown->now, shown->now->now.q_pa, text, size);
-}
-
-/* Shear stresses have the sign of the shear, as in loading.path. */
-static void stress_xy(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_pressure(shown->now, -shown->now->now.shear_pa[0], text, size);
-}
-
-static void stress_xz(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_pressure(shown->now, -shown->now->now.shear_pa[1], text, size);
-}
-
-static void stress_yz(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_pressure(shown->now, -shown->now->now.shear_pa[2], text, size);
-}
-
-/* Lengths, "24.1 um"; times, "40.6 us". */
-static void write_unit(double value, enum gb_dimension dimension, char *text, size_t size)
-{
-    if (isfinite(value)) {
-        gb_units_format_short(value, dimension, 3, text, size);
-    }
-}
-
-static void poured(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    snprintf(text, size, "%lld", (long long)shown->now->stage.poured);
-}
-
-static void filled_height(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_unit(shown->now->stage.height_m, GB_DIM_LENGTH, text, size);
-}
-
-static void live_contacts(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_number(text, size, "%.2f", shown->now->stage.coordination);
-}
-
-static void live_kinetic(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_energy(text, size, shown->now->stage.kinetic_j);
-}
-
-static void live_time(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_unit(shown->now->stage.time_s, GB_DIM_TIME, text, size);
-}
-
-static void height(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_unit(shown->now->now.height_m, GB_DIM_LENGTH, text, size);
-}
-
-static void wall(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_pressure(shown->now, shown->now->now.wall_pa, text, size);
-}
-
-static void floor_ratio(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    panel_state_text_number(text, size, "%.3f", shown->now->now.floor_over_punch);
-}
-
-static void die_time(const struct gb_session_shown *shown, char *text, size_t size)
-{
-    write_unit(shown->now->now.time_s, GB_DIM_TIME, text, size);
-}
+#define AT(member) .at = offsetof(struct gb_snapshot, member)
 
 /* Order of the columns when all fit. */
-static const struct panel_state_item still_items[] = {
-    {"leg", "leg", leg, 0},
-    {"density", "relative density", density, 1},
-    {"coord.", "mean coordination number", contacts, 8},
-    {"bridged", "bridged contacts", bridged, 11},
-    {"rattl.", "rattlers", rattlers, 12},
-    {"p", "pressure p", p, 2},
-    {"px", "  along x", px, 13},
-    {"py", "  along y", py, 14},
-    {"pz", "  along z", pz, 9},
-    {"q", "deviatoric stress q", q, 3},
-    {"xy", "shear stress xy", stress_xy, 5},
-    {"xz", "shear stress xz", stress_xz, 4},
-    {"yz", "shear stress yz", stress_yz, 6},
-    {"residual", "force residual", residual, 7},
-    {"evals", "force evaluations", evaluations, 15},
-    {"evals/s", "force evaluations/s", rate, 10},
-    {"elapsed", "elapsed time", elapsed_time, 16},
+static const struct item still_items[] = {
+    {"leg", "leg", 0, write_leg, AT(now.leg), .need = LEGS},
+    {"density", "relative density", 1, write_number, AT(now.density), "%.4f"},
+    {"coord.", "mean coordination number", 8, write_number, AT(now.coordination), "%.2f"},
+    {"bridged", "bridged contacts", 11, write_bridged, AT(now.bridged)},
+    {"rattl.", "rattlers", 12, write_percent, AT(now.rattlers), "%.1f %%"},
+    {"p", "pressure p", 2, write_pressure, AT(now.p_pa)},
+    {"px", "  along x", 13, write_pressure, AT(now.px_pa)},
+    {"py", "  along y", 14, write_pressure, AT(now.py_pa), .need = SOLID},
+    {"pz", "  along z", 9, write_pressure, AT(now.pz_pa)},
+    {"q", "deviatoric stress q", 3, write_pressure, AT(now.q_pa), .need = LEGS},
+    {"xy", "shear stress xy", 5, write_stress, AT(now.shear_pa[0]), .need = SHEAR,
+     .component = 3},
+    {"xz", "shear stress xz", 4, write_stress, AT(now.shear_pa[1]), .need = SHEAR,
+     .component = 4},
+    {"yz", "shear stress yz", 6, write_stress, AT(now.shear_pa[2]), .need = SHEAR,
+     .component = 5},
+    {"residual", "force residual", 7, write_number, AT(live_residual), "%.0e",
+     .from = EVALUATION},
+    {"evals", "force evaluations", 15, write_evaluations, .from = POINT},
+    {"evals/s", "force evaluations/s", 10, write_rate, AT(evaluations_per_s)},
+    {"elapsed", "elapsed time", 16, write_duration, AT(seconds), .from = START},
 };
-
-enum { STILL_ITEMS = sizeof still_items / sizeof still_items[0] };
 
 /* The residual of a dynamic run is the unbalanced force. */
-static const struct panel_state_item moving_items[] = {
-    {"stage", "stage", stage, 3},
-    {"t", "simulated time", simulated, 2},
-    {"density", "relative density", density, 0},
-    {"p", "pressure p", p, 1},
-    {"px", "  along x", px, 14},
-    {"py", "  along y", py, 17},
-    {"pz", "  along z", pz, 15},
-    {"work", "work done", work, 4},
-    {"kin", "kinetic energy", kinetic, 5},
-    {"elast", "elastic energy", elastic, 6},
-    {"diss", "dissipated", dissipated, 7},
-    {"E err", "energy balance error", energy_error, 8},
-    {"coord.", "mean coordination number", contacts, 10},
-    {"bridged", "bridged contacts", bridged, 13},
-    {"rattl.", "rattlers", rattlers, 16},
-    {"unbal.", "unbalanced force", residual, 9},
-    {"step", "time step", time_step, 11},
-    {"steps/s", "time steps/s", rate, 12},
+static const struct item moving_items[] = {
+    {"stage", "stage", 3, write_stage, .from = POINT},
+    {"t", "simulated time", 2, write_nanoseconds, AT(now.time_s)},
+    {"density", "relative density", 0, write_number, AT(now.density), "%.4f"},
+    {"p", "pressure p", 1, write_pressure, AT(now.p_pa)},
+    {"px", "  along x", 14, write_pressure, AT(now.px_pa)},
+    {"py", "  along y", 17, write_pressure, AT(now.py_pa), .need = SOLID},
+    {"pz", "  along z", 15, write_pressure, AT(now.pz_pa)},
+    {"work", "work done", 4, write_energy, AT(now.work)},
+    {"kin", "kinetic energy", 5, write_energy, AT(now.kinetic)},
+    {"elast", "elastic energy", 6, write_energy, AT(now.elastic)},
+    {"diss", "dissipated", 7, write_energy, AT(now.dissipated)},
+    {"E err", "energy balance error", 8, write_percent, AT(now.energy_residual),
+     "%.2g %%"},
+    {"coord.", "mean coordination number", 10, write_number, AT(now.coordination),
+     "%.2f"},
+    {"bridged", "bridged contacts", 13, write_bridged, AT(now.bridged)},
+    {"rattl.", "rattlers", 16, write_percent, AT(now.rattlers), "%.1f %%"},
+    {"unbal.", "unbalanced force", 9, write_number, AT(live_residual), "%.0e",
+     .from = EVALUATION},
+    {"step", "time step", 11, write_time_step, AT(time_step_s)},
+    {"steps/s", "time steps/s", 12, write_rate, AT(evaluations_per_s)},
 };
-
-enum { MOVING_ITEMS = sizeof moving_items / sizeof moving_items[0] };
 
 /* Of a die, before its first point: of the bed as it is now. */
-static const struct panel_state_item filling_items[] = {
-    {"in die", "particles in the die", poured, 0},
-    {"height", "height of the powder", filled_height, 1},
-    {"coord.", "mean coordination number", live_contacts, 3},
-    {"kin", "kinetic energy", live_kinetic, 2},
-    {"unbal.", "unbalanced force", residual, 4},
-    {"t", "simulated time", live_time, 6},
-    {"step", "time step", time_step, 9},
-    {"steps", "time steps", evaluations, 8},
-    {"steps/s", "time steps/s", rate, 5},
-    {"elapsed", "elapsed time", elapsed_time, 7},
+static const struct item filling_items[] = {
+    {"in die", "particles in the die", 0, write_poured, .from = EVALUATION},
+    {"height", "height of the powder", 1, write_length, AT(stage.height_m),
+     .from = EVALUATION},
+    {"coord.", "mean coordination number", 3, write_number, AT(stage.coordination),
+     "%.2f", .from = EVALUATION},
+    {"kin", "kinetic energy", 2, write_energy, AT(stage.kinetic_j), .from = EVALUATION},
+    {"unbal.", "unbalanced force", 4, write_number, AT(live_residual), "%.0e",
+     .from = EVALUATION},
+    {"t", "simulated time", 6, write_time, AT(stage.time_s), .from = EVALUATION},
+    {"step", "time step", 9, write_time_step, AT(time_step_s), .from = EVALUATION},
+    {"steps", "time steps", 8, write_evaluations, .from = EVALUATION},
+    {"steps/s", "time steps/s", 5, write_rate, AT(evaluations_per_s), .from = EVALUATION},
+    {"elapsed", "elapsed time", 7, write_duration, AT(seconds), .from = START},
 };
-
-enum { FILLING_ITEMS = sizeof filling_items / sizeof filling_items[0] };
 
 /* And at its points. */
-static const struct panel_state_item die_items[] = {
-    {"density", "relative density", density, 0},
-    {"height", "height of the powder", height, 3},
-    {"coord.", "mean coordination number", contacts, 2},
-    {"rattl.", "rattlers", rattlers, 7},
-    {"p", "pressure p", p, 1},
-    {"wall", "radial pressure on the wall", wall, 5},
-    {"floor/p", "floor-to-punch force ratio", floor_ratio, 4},
-    {"unbal.", "unbalanced force", residual, 8},
-    {"t", "simulated time", die_time, 9},
-    {"steps", "time steps", evaluations, 11},
-    {"steps/s", "time steps/s", rate, 6},
-    {"elapsed", "elapsed time", elapsed_time, 10},
+static const struct item die_items[] = {
+    {"density", "relative density", 0, write_number, AT(now.density), "%.4f"},
+    {"height", "height of the powder", 3, write_length, AT(now.height_m)},
+    {"coord.", "mean coordination number", 2, write_number, AT(now.coordination), "%.2f"},
+    {"rattl.", "rattlers", 7, write_percent, AT(now.rattlers), "%.1f %%"},
+    {"p", "pressure p", 1, write_pressure, AT(now.p_pa)},
+    {"wall", "radial pressure on the wall", 5, write_pressure, AT(now.wall_pa)},
+    {"floor/p", "floor-to-punch force ratio", 4, write_number, AT(now.floor_over_punch),
+     "%.3f"},
+    {"unbal.", "unbalanced force", 8, write_number, AT(live_residual), "%.0e",
+     .from = EVALUATION},
+    {"t", "simulated time", 9, write_time, AT(now.time_s)},
+    {"steps", "time steps", 11, write_evaluations, .from = POINT},
+    {"steps/s", "time steps/s", 6, write_rate, AT(evaluations_per_s)},
+    {"elapsed", "elapsed time", 10, write_duration, AT(seconds), .from = START},
 };
 
-enum { DIE_ITEMS = sizeof die_items / sizeof die_items[0] };
+#undef AT
 
 /* The quantities of a run. */
 struct list {
-    const struct panel_state_item *item;
+    const struct item *item;
     int count;
 };
 
-static const struct list still = {still_items, STILL_ITEMS},
-                         moving = {moving_items, MOVING_ITEMS},
-                         filling = {filling_items, FILLING_ITEMS},
-                         die = {die_items, DIE_ITEMS};
+#define COUNT(items) (sizeof items / sizeof items[0])
+static const struct list still = {still_items, COUNT(still_items)},
+                         moving = {moving_items, COUNT(moving_items)},
+                         filling = {filling_items, COUNT(filling_items)},
+                         die = {die_items, COUNT(die_items)};
 
 static const struct list *list_of(const struct gb_session_shown *shown)
 {
@@ -410,33 +361,35 @@ static bool sheared(const struct gb_path *path, int component)
     return moved;
 }
 
-static bool applies(const struct panel_state_item *item, const struct gb_params *params,
+static bool applies(const struct item *item, const struct gb_params *params,
                     const struct gb_path *path)
 {
-    if (item->write == leg || item->write == q) {
+    switch (item->need) {
+    case SOLID:
+        return params->dimension == 3;
+    case LEGS:
         return path->count > 0;
+    case SHEAR:
+        return sheared(path, item->component);
+    case NOTHING:
+        break;
     }
-    return item->write == py          ? params->dimension == 3
-           : item->write == stress_xy ? sheared(path, 3)
-           : item->write == stress_xz ? sheared(path, 4)
-           : item->write == stress_yz ? sheared(path, 5)
-                                      : true;
+    return true;
 }
 
-static struct panel_state_choice
-panel_state_items_choose(const struct gb_session *session)
+static struct choice choose(const struct gb_session *session)
 {
     const struct gb_session_shown shown = gb_session_shown(session);
     const struct gb_params *params = shown.params;
     const struct list *list = list_of(&shown);
-    struct panel_state_choice choice = {.count = 0};
+    struct choice choice = {.count = 0};
     struct gb_path path = {.count = 0};
     if (!gb_loading_kind_follows_path(params) ||
         !gb_path_parse(&path, params->path, params->dimension, NULL)) {
         path.count = 0;
     }
     for (int i = 0; i < list->count; i++) {
-        const struct panel_state_item *item = &list->item[i];
+        const struct item *item = &list->item[i];
         int at = choice.count;
         if (!applies(item, params, &path)) {
             continue;
@@ -450,23 +403,15 @@ panel_state_items_choose(const struct gb_session *session)
     return choice;
 }
 
-static bool is_of(const struct list *list, const struct panel_state_item *item)
-{
-    return item >= list->item && item < list->item + list->count;
-}
-
-/* Value of an item; "-" where there is none yet.  Without a state there are elapsed time,
- * residual and the items of a die that is filled. */
-static void panel_state_items_write(const struct panel_state_item *item,
-                                    const struct gb_session_shown *shown, char *text,
-                                    size_t size)
+/* Value of an item; "-" where there is none yet. */
+static void write_item(const struct item *item, const struct gb_session_shown *shown,
+                       char *text, size_t size)
 {
     const struct gb_snapshot *now = shown->now;
     snprintf(text, size, "-");
-    const bool evaluated =
-        now->evaluations > 0 && (item->write == residual || is_of(&filling, item));
-    if (now->now_valid || item->write == elapsed_time || evaluated) {
-        item->write(shown, text, size);
+    if (now->now_valid || item->from == START ||
+        (item->from == EVALUATION && now->evaluations > 0)) {
+        item->write(item, shown, text, size);
     }
 }
 
@@ -521,7 +466,7 @@ static void write_state(const struct gb_snapshot *now, const char *word, char *t
 {
     char time[24];
     if (now->state > GB_RUN_PAUSED) {
-        panel_state_items_duration(now->seconds, time, sizeof time);
+        put_duration(now->seconds, time, sizeof time);
         snprintf(text, size, "%s %s %s", word, now->state == GB_RUN_DONE ? "in" : "after",
                  time);
     } else {
@@ -544,7 +489,8 @@ static void write_share(const struct gb_snapshot *now, double share, char *text,
 }
 
 /* The stage in place of the word "running". */
-static void write_stage(const struct gb_snapshot *now, int cols, char *text, size_t size)
+static void write_running_stage(const struct gb_snapshot *now, int cols, char *text,
+                                size_t size)
 {
     char stage[128];
     if (gb_panel_state_stage(now, now->state, cols - 2, stage, sizeof stage)) {
@@ -571,7 +517,7 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
     const int inner = paint->rect.cols - 2;
     write_share(now, share, tail, sizeof tail);
     if (!own_row && shown.curve != NULL) {
-        write_stage(now, inner - (int)strlen(tail), state, sizeof state);
+        write_running_stage(now, inner - (int)strlen(tail), state, sizeof state);
     }
     const int end = gb_paint_text(paint, 1, 1, style, state) + 1;
     const int room = inner + 1 - end - (int)strlen(tail);
@@ -589,19 +535,17 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
 }
 
 static void draw_item(const struct gb_paint *paint, int row, int col, int cols,
-                      const struct panel_state_item *item,
-                      const struct gb_session_shown *shown)
+                      const struct item *item, const struct gb_session_shown *shown)
 {
     char text[48];
-    panel_state_items_write(item, shown, text, sizeof text);
+    write_item(item, shown, text, sizeof text);
     const char *name = cols >= FULL_NAME_COLS ? item->name : item->brief;
     gb_paint_cell(paint, row, col, cols - 1 - (int)strlen(text), GB_STYLE_DIM, name);
     gb_paint_text(paint, row, col + cols - (int)strlen(text), GB_STYLE_PLAIN, text);
 }
 
 static void draw_items(const struct gb_paint *paint, int first, int rows,
-                       const struct gb_session_shown *shown,
-                       const struct panel_state_choice *choice)
+                       const struct gb_session_shown *shown, const struct choice *choice)
 {
     const int count = choice->count;
     const int inner = paint->rect.cols - 2;
@@ -735,7 +679,7 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
     const struct gb_session_shown shown = gb_session_shown(session);
     const struct gb_snapshot *now = shown.now;
     gb_paint_title(paint, shown.quick ? "State of the quick cell" : "State", focus);
-    const struct panel_state_choice choice = panel_state_items_choose(session);
+    const struct choice choice = choose(session);
     const bool roomy = paint->rect.rows >= choice.count + 6;
     draw_progress(paint, session, roomy);
     int row = roomy ? 4 : 2;
