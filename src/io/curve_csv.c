@@ -7,8 +7,8 @@
 #include "base/number.h"
 #include "base/table.h"
 #include "base/text/visible.h"
-#include "io/line_file.h"
 #include "io/point_columns.h"
+#include "io/text_file.h"
 #include "scene/derived.h"
 #include "scene/path/path.h"
 
@@ -85,7 +85,7 @@ GString *gb_curve_csv_head(const struct gb_params *params)
     GString *head = g_string_new("# greenbody " GB_VERSION "\n# preset: ");
     GString *title = g_string_new(NULL);
     gb_visible_add_cell(title, params->title, false);
-    gb_line_file_add_text(head, title->str);
+    gb_text_file_add_line(head, title->str);
     g_string_free(title, TRUE);
     g_string_append_printf(head, "# seed: %" PRIu64 "\n", params->seed);
     g_string_append(

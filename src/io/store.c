@@ -1,14 +1,17 @@
 #include "io/store.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/record.h"
 #include "io/curve_csv.h"
-#include "io/line_file.h"
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/status/status_json.h"
@@ -16,19 +19,119 @@
 #include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
 
+/* A file that grows by whole lines.  A checkpoint syncs it and keeps its length and checksum;
+ * a resumed run checks these and drops what follows. */
+struct lines {
+    char *path;
+    int fd;
+    off_t length; /* of the whole lines so far */
+    uint64_t sum; /* FNV-1a over them */
+};
+
 struct gb_store {
     struct gb_rundir dir;
-    struct gb_line_file curve, events;
+    struct lines curve, events;
     char *status_path, *state_path, *before_path;
     enum gb_curve_columns columns;
     int64_t points;
 };
 
-static bool write_curve_head(struct gb_line_file *curve, const struct gb_params *params,
+/* Makes the file, which must not exist.  close_lines follows in any case. */
+static bool create_lines(struct lines *lines, const char *directory, const char *name,
+                         struct gb_error *err)
+{
+    *lines = (struct lines){.path = g_build_filename(directory, name, NULL),
+                            .sum = GB_RECORD_FNV};
+    lines->fd = open(lines->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return lines->fd >= 0 || gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made: %s",
+                                          lines->path, g_strerror(errno));
+}
+
+/* Adds the first `length` bytes of the file to length and checksum; false unless they are
+ * whole lines. */
+static bool read_lines(struct lines *lines, off_t length)
+{
+    char part[1 << 16], last = '\n';
+    while (lines->length < length) {
+        const size_t wanted = (size_t)MIN((off_t)sizeof part, length - lines->length);
+        const ssize_t n = pread(lines->fd, part, wanted, lines->length);
+        if (n < 0 && errno == EINTR) {
+            continue;
+        }
+        if (n <= 0) {
+            return false;
+        }
+        lines->sum = gb_record_fnv(lines->sum, part, (size_t)n);
+        lines->length += n;
+        last = part[n - 1];
+    }
+    return last == '\n';
+}
+
+/* Opens a file that was written before and reads its first `length` bytes. */
+static bool reopen_lines(struct lines *lines, const char *directory, const char *name,
+                         off_t length, struct gb_error *err)
+{
+    struct stat info;
+    *lines = (struct lines){.path = g_build_filename(directory, name, NULL),
+                            .sum = GB_RECORD_FNV};
+    lines->fd = open(lines->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (lines->fd < 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", lines->path,
+                            g_strerror(errno));
+    }
+    if (fstat(lines->fd, &info) != 0 || !S_ISREG(info.st_mode)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", lines->path);
+    }
+    return (length >= 0 && read_lines(lines, length)) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%s: is not as the checkpoint left it: its first %lld bytes "
+                        "should be whole lines",
+                        lines->path, (long long)length);
+}
+
+static void close_lines(struct lines *lines)
+{
+    if (lines->fd >= 0) {
+        close(lines->fd);
+    }
+    g_free(lines->path);
+}
+
+static bool write_error(const struct lines *lines, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", lines->path,
+                        g_strerror(errno));
+}
+
+/* Appends text, or leaves the file as it was: a full disk must not leave half a row. */
+static bool append_lines(struct lines *lines, const char *text, struct gb_error *err)
+{
+    const size_t size = strlen(text);
+    if (!gb_file_append_at(lines->fd, lines->length, text, size)) {
+        return write_error(lines, err);
+    }
+    lines->sum = gb_record_fnv(lines->sum, text, size);
+    lines->length += (off_t)size;
+    return true;
+}
+
+/* Drops what follows the lines that were read. */
+static bool cut_lines(const struct lines *lines, struct gb_error *err)
+{
+    return ftruncate(lines->fd, lines->length) == 0 || write_error(lines, err);
+}
+
+static bool sync_lines(const struct lines *lines, struct gb_error *err)
+{
+    return fsync(lines->fd) == 0 || write_error(lines, err);
+}
+
+static bool write_curve_head(struct lines *curve, const struct gb_params *params,
                              struct gb_error *err)
 {
     GString *head = gb_curve_csv_head(params);
-    const bool ok = gb_line_file_append(curve, head->str, err);
+    const bool ok = append_lines(curve, head->str, err);
     g_string_free(head, TRUE);
     return ok;
 }
@@ -92,8 +195,8 @@ bool gb_store_create(struct gb_store **out, const char *directory,
     }
     name_files(store);
     if (!write_preset(directory, params, err) ||
-        !gb_line_file_open(&store->curve, directory, "curve.csv", err) ||
-        !gb_line_file_open(&store->events, directory, "events.log", err) ||
+        !create_lines(&store->curve, directory, "curve.csv", err) ||
+        !create_lines(&store->events, directory, "events.log", err) ||
         !write_curve_head(&store->curve, params, err)) { /* synced with the first state */
         gb_store_discard(store);
         return false;
@@ -104,8 +207,8 @@ bool gb_store_create(struct gb_store **out, const char *directory,
 
 static void free_store(struct gb_store *store)
 {
-    gb_line_file_close(&store->curve);
-    gb_line_file_close(&store->events);
+    close_lines(&store->curve);
+    close_lines(&store->events);
     g_free(store->status_path);
     g_free(store->state_path);
     g_free(store->before_path);
@@ -126,8 +229,8 @@ struct gb_store_extent gb_store_extent(const struct gb_store *store)
                                     store->events.length, (int64_t)store->curve.sum};
 }
 
-static bool check_sum(const struct gb_line_file *curve,
-                      const struct gb_store_extent *extent, struct gb_error *err)
+static bool check_sum(const struct lines *curve, const struct gb_store_extent *extent,
+                      struct gb_error *err)
 {
     return extent->curve_sum == 0 || extent->curve_sum == (int64_t)curve->sum ||
            gb_error_set(
@@ -140,28 +243,12 @@ static bool check_sum(const struct gb_line_file *curve,
 bool gb_store_check_curve(const char *directory, const struct gb_store_extent *extent,
                           struct gb_error *err)
 {
-    struct gb_line_file curve;
-    const bool same = gb_line_file_reopen(&curve, directory, "curve.csv",
-                                          (off_t)extent->curve_bytes, err) &&
-                      check_sum(&curve, extent, err);
-    gb_line_file_close(&curve);
+    struct lines curve;
+    const bool same =
+        reopen_lines(&curve, directory, "curve.csv", (off_t)extent->curve_bytes, err) &&
+        check_sum(&curve, extent, err);
+    close_lines(&curve);
     return same;
-}
-
-bool gb_store_check_rows(struct gb_store *store, struct gb_error *err)
-{
-    return gb_rundir_check_identity(&store->dir, err) &&
-           gb_line_file_check(&store->curve, true, err) &&
-           gb_line_file_check(&store->events, true, err);
-}
-
-const char *gb_store_restored(struct gb_store *store)
-{
-    struct gb_line_file *rows = store->curve.restored ? &store->curve : &store->events;
-    const char *name = rows == &store->curve ? "curve.csv" : "events.log";
-    const bool restored = rows->restored;
-    rows->restored = false;
-    return restored ? name : NULL;
 }
 
 /* Empty files as after gb_store_create: rows without a checkpoint are dropped. */
@@ -169,12 +256,12 @@ static bool begin_rows(struct gb_store *store, const struct gb_params *params,
                        struct gb_error *err)
 {
     static const char *const names[] = {"curve.csv", "events.log"};
-    struct gb_line_file *rows[] = {&store->curve, &store->events};
+    struct lines *rows[] = {&store->curve, &store->events};
     for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
         char *path = g_build_filename(store->dir.path, names[k], NULL);
         (void)unlink(path);
         g_free(path);
-        if (!gb_line_file_open(rows[k], store->dir.path, names[k], err)) {
+        if (!create_lines(rows[k], store->dir.path, names[k], err)) {
             return false;
         }
     }
@@ -196,13 +283,12 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
         done = begin_rows(store, params, err);
     } else {
         store->points = extent->points;
-        done = gb_line_file_reopen(&store->curve, store->dir.path, "curve.csv",
-                                   (off_t)extent->curve_bytes, err) &&
+        done = reopen_lines(&store->curve, store->dir.path, "curve.csv",
+                            (off_t)extent->curve_bytes, err) &&
                check_sum(&store->curve, extent, err) &&
-               gb_line_file_reopen(&store->events, store->dir.path, "events.log",
-                                   (off_t)extent->events_bytes, err) &&
-               gb_line_file_cut(&store->curve, err) &&
-               gb_line_file_cut(&store->events, err);
+               reopen_lines(&store->events, store->dir.path, "events.log",
+                            (off_t)extent->events_bytes, err) &&
+               cut_lines(&store->curve, err) && cut_lines(&store->events, err);
     }
     if (!done) {
         gb_store_destroy(store);
@@ -225,7 +311,7 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
 {
     GString *row = gb_curve_csv_row(point, store->columns);
     const bool ok = gb_rundir_check_identity(&store->dir, err) &&
-                    gb_line_file_append(&store->curve, row->str, err);
+                    append_lines(&store->curve, row->str, err);
     store->points += ok;
     g_string_free(row, TRUE);
     return ok;
@@ -236,9 +322,9 @@ bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
 {
     GString *line = g_string_new(NULL);
     g_string_append_printf(line, "step %" PRId64 ": ", step);
-    gb_line_file_add_text(line, text);
+    gb_text_file_add_line(line, text);
     const bool ok = gb_rundir_check_identity(&store->dir, err) &&
-                    gb_line_file_append(&store->events, line->str, err);
+                    append_lines(&store->events, line->str, err);
     g_string_free(line, TRUE);
     return ok;
 }
@@ -281,9 +367,8 @@ static void keep_before(const struct gb_store *store)
 bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
                     const struct gb_record *record, struct gb_error *err)
 {
-    if (!gb_rundir_check_identity(&store->dir, err) ||
-        !gb_line_file_sync(&store->curve, err) ||
-        !gb_line_file_sync(&store->events, err)) {
+    if (!gb_rundir_check_identity(&store->dir, err) || !sync_lines(&store->curve, err) ||
+        !sync_lines(&store->events, err)) {
         return false;
     }
     keep_before(store);
@@ -293,8 +378,7 @@ bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
 
 bool gb_store_sync(struct gb_store *store, struct gb_error *err)
 {
-    return gb_line_file_sync(&store->curve, err) &&
-           gb_line_file_sync(&store->events, err);
+    return sync_lines(&store->curve, err) && sync_lines(&store->events, err);
 }
 
 const char *gb_store_directory(const struct gb_store *store)

@@ -49,11 +49,6 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err);
 bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
                     struct gb_error *err);
-/* Both files compared to what was written, byte by byte; one that another program has
- * changed is written again. */
-bool gb_store_check_rows(struct gb_store *store, struct gb_error *err);
-/* The name of a file that was written again, once; NULL: none. */
-const char *gb_store_restored(struct gb_store *store);
 /* Is the curve of a run directory that of its checkpoint?  Errors: GB_ERR_INPUT. */
 bool gb_store_check_curve(const char *directory, const struct gb_store_extent *extent,
                           struct gb_error *err);

@@ -32,3 +32,11 @@ bool gb_text_file_replace(const char *path, const char *text, size_t length,
     g_error_free(failure);
     return false;
 }
+
+void gb_text_file_add_line(GString *lines, const char *text)
+{
+    for (const char *c = text; *c != '\0'; c++) {
+        g_string_append_c(lines, g_ascii_iscntrl(*c) ? '?' : *c);
+    }
+    g_string_append_c(lines, '\n');
+}

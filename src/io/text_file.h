@@ -4,6 +4,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include <glib.h>
+
 #include "greenbody/status.h"
 
 enum gb_text_file_path {
@@ -16,5 +18,8 @@ enum gb_text_file_path {
  * where a path of the user is a folder or lies in none. */
 bool gb_text_file_replace(const char *path, const char *text, size_t length,
                           enum gb_text_file_path kind, struct gb_error *err);
+
+/* Adds text and a newline to lines; control characters become '?'. */
+void gb_text_file_add_line(GString *lines, const char *text);
 
 #endif

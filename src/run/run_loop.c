@@ -126,22 +126,13 @@ static void publish_event(struct gb_run_loop *loop, int64_t step, const char *te
     }
 }
 
-/* What the recorder has to tell: a file that another program has changed. */
-static void take_restored(struct gb_run_loop *loop)
+/* What the recorder left out. */
+static void take_missed(struct gb_run_loop *loop)
 {
     char text[GB_EVENT_TEXT];
-    while (records(loop) && gb_run_recorder_restored(loop->recorder, text, sizeof text)) {
+    while (records(loop) && gb_run_recorder_missed(loop->recorder, text, sizeof text)) {
         publish_event(loop, gb_experiment_point(loop->experiment)->step, text);
     }
-}
-
-static void check_rows(struct gb_run_loop *loop)
-{
-    struct gb_error err = {0};
-    if (records(loop)) {
-        check_record(loop, gb_run_recorder_check(loop->recorder, &err), &err);
-    }
-    take_restored(loop);
 }
 
 void gb_run_loop_event(struct gb_run_loop *loop, const char *text)
@@ -237,7 +228,7 @@ static enum gb_run_outcome record_point(struct gb_run_loop *loop)
             loop, gb_run_recorder_point(loop->recorder, loop->experiment, &point, &err),
             &err);
     }
-    take_restored(loop);
+    take_missed(loop);
     return hooks->on_point == NULL || hooks->on_point(hooks->data, &point, &loop->error)
                ? GB_RUN_OUTCOME_NONE
                : GB_RUN_OUTCOME_FAILED;
@@ -354,7 +345,7 @@ static enum gb_run_outcome conclude(struct gb_run_loop *loop, enum gb_run_outcom
 {
     const struct gb_run_loop_hooks *hooks = &loop->hooks;
     struct gb_error err = {0};
-    check_rows(loop);
+    take_missed(loop);
     loop->begun = false;
     observe_end(loop, outcome);
     if (hooks->on_end != NULL) {

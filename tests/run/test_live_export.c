@@ -72,7 +72,7 @@ static void press(struct live_run *run, int64_t points, int *told)
             g_assert_cmpstr(err.text, ==, "");
             g_assert_true(recorded);
         }
-        while (gb_run_recorder_restored(run->recorder, text, sizeof text)) {
+        while (gb_run_recorder_missed(run->recorder, text, sizeof text)) {
             g_assert_nonnull(strstr(text, "output.export"));
             (*told)++;
         }

@@ -511,28 +511,16 @@ bool gb_run_recorder_save(struct gb_run_recorder *recorder, double seconds,
             gb_writer_wait(recorder->writer, err));
 }
 
-bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *err)
+bool gb_run_recorder_missed(struct gb_run_recorder *recorder, char *text, size_t size)
 {
-    return gb_store_check_rows(recorder->store, err);
-}
-
-bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size)
-{
-    if (recorder->not_kept > 0) {
-        snprintf(text, size,
-                 "output.snapshots_at: %d states are not kept: their points come before "
-                 "the state with which this run begins",
-                 recorder->not_kept);
-        recorder->not_kept = 0;
-        return true;
-    }
-    const char *name = gb_store_restored(recorder->store);
-    if (name == NULL) {
+    if (recorder->not_kept == 0) {
         return gb_live_export_told(&recorder->live, text, size);
     }
     snprintf(text, size,
-             "%s was changed or removed by another program: written again from memory",
-             name);
+             "output.snapshots_at: %d states are not kept: their points come before "
+             "the state with which this run begins",
+             recorder->not_kept);
+    recorder->not_kept = 0;
     return true;
 }
 

@@ -59,12 +59,9 @@ bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point
 bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
                            const char *text, struct gb_error *err);
 
-/* Compares curve.csv and events.log to what was recorded, before the end of a run; what
- * another program has changed is written again.  Errors: GB_ERR_MACHINE. */
-bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *err);
-/* An event about a file that was written again, a frame that was left out, or states of
- * rows without one, once; false: none. */
-bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size);
+/* An event about a frame that was left out, or states of rows without one, once; false:
+ * none. */
+bool gb_run_recorder_missed(struct gb_run_recorder *recorder, char *text, size_t size);
 
 enum gb_run_recorder_when {
     GB_RUN_RECORDER_DUE, /* when output.checkpoint_every has passed */
