@@ -24,8 +24,7 @@ enum {
 };
 
 /* One recorded point of a run: one row of curve.csv.  The struct is part of the
- * interface of the library: add new members at the end, each with a row in
- * src/io/point_columns.c.  Pressures are in Pa.  A value
+ * interface of the library: add new members at the end.  Pressures are in Pa.  A value
  * that does not exist, such as py in 2D, is NaN.  p is the mean pressure over the
  * compressed axes, which the loading prescribes. */
 struct gb_point {
