@@ -28,6 +28,7 @@ struct gb_sheet {
     GString *head;  /* comments above the names */
     GString *cells;
     size_t count; /* of cells */
+    bool quote;   /* everything in CSV */
 };
 
 static void clear_column(void *column)
@@ -80,18 +81,22 @@ void gb_sheet_comment(struct gb_sheet *sheet, const char *lines)
 {
     char **line = g_strsplit(lines != NULL ? lines : "", "\n", -1);
     for (size_t i = 0; line[i] != NULL; i++) {
-        if (line[i][0] == '\0') {
-            continue;
-        }
-        if (sheet->column->len == 0) {
+        if (line[i][0] != '\0') {
             g_string_append_printf(sheet->head, "# %s\n", line[i]);
-        } else {
-            const struct note note = {sheet->count / sheet->column->len,
-                                      g_strdup(line[i])};
-            g_array_append_val(sheet->note, note);
         }
     }
     g_strfreev(line);
+}
+
+void gb_sheet_note(struct gb_sheet *sheet, const char *line)
+{
+    const struct note note = {sheet->count / sheet->column->len, g_strdup(line)};
+    g_array_append_val(sheet->note, note);
+}
+
+void gb_sheet_quote(struct gb_sheet *sheet)
+{
+    sheet->quote = true;
 }
 
 static void add_column(struct gb_sheet *sheet, const char *format, char *name)
@@ -179,9 +184,9 @@ static const char *take_cell(struct walk *walk)
     return cell;
 }
 
-static void append_csv_cell(GString *text, const char *cell, bool always)
+static void append_csv_cell(GString *text, const char *cell, bool quoted)
 {
-    if (*cell == '\0' || (!always && strpbrk(cell, ",\"\n") == NULL)) {
+    if (!quoted && strpbrk(cell, ",\"\n") == NULL) {
         g_string_append(text, cell);
         return;
     }
@@ -200,7 +205,7 @@ static void print_csv(struct walk *walk, GString *text)
     guint noted = 0;
     g_string_append(text, sheet->head->str);
     for (guint k = 0; k < columns; k++) {
-        append_csv_cell(text, column_at(sheet, k)->name, false);
+        append_csv_cell(text, column_at(sheet, k)->name, sheet->quote);
         g_string_append_c(text, k + 1 < columns ? ',' : '\n');
     }
     for (;; walk->row++) {
@@ -215,7 +220,9 @@ static void print_csv(struct walk *walk, GString *text)
             return;
         }
         for (guint k = 0; k < columns; k++) {
-            append_csv_cell(text, take_cell(walk), column_at(sheet, k)->format[0] == '"');
+            const char *cell = take_cell(walk);
+            const bool always = column_at(sheet, k)->format[0] == '"';
+            append_csv_cell(text, cell, sheet->quote || (always && *cell != '\0'));
             g_string_append_c(text, k + 1 < columns ? ',' : '\n');
         }
     }
@@ -238,10 +245,14 @@ static void append_json_text(GString *text, const char *cell)
     g_string_append_c(text, '"');
 }
 
-/* With 17 digits, and a point in a whole number: it is a number of a column of such. */
-static void append_json_number(GString *text, const char *cell)
+/* Numbers with 17 digits, those without an exponent with a point; integers as they are. */
+static void append_json_number(GString *text, const char *cell, bool integer)
 {
     char number[G_ASCII_DTOSTR_BUF_SIZE];
+    if (integer) {
+        g_string_append(text, cell);
+        return;
+    }
     g_ascii_dtostr(number, sizeof number, g_ascii_strtod(cell, NULL));
     g_string_append(text, number);
     g_string_append(text, strpbrk(number, ".e") != NULL ? "" : ".0");
@@ -264,7 +275,7 @@ static void print_json(struct walk *walk, GString *text)
             } else if (is_text(column)) {
                 append_json_text(text, cell);
             } else {
-                append_json_number(text, cell);
+                append_json_number(text, cell, strcmp(column->format, "%.0f") == 0);
             }
             g_string_append(text, k + 1 < columns ? ",\n" : "\n");
         }
@@ -286,7 +297,8 @@ static void print_markdown(struct walk *walk, GString *text)
     g_string_append(text, "|\n");
     while (has_row(walk)) {
         for (guint k = 0; k < columns; k++) {
-            g_string_append_printf(text, "| %s ", take_cell(walk));
+            const bool code = column_at(walk->sheet, k)->format[0] == '`';
+            g_string_append_printf(text, code ? "| `%s` " : "| %s ", take_cell(walk));
         }
         g_string_append(text, "|\n");
     }
@@ -340,11 +352,11 @@ static void print_text(struct walk *walk, GString *text)
 
 GString *gb_sheet_print(const struct gb_sheet *sheet, enum gb_sheet_format format)
 {
-    static void (*const print[])(struct walk *, GString *) = {
-        [GB_SHEET_CSV] = print_csv,
-        [GB_SHEET_JSON] = print_json,
-        [GB_SHEET_MARKDOWN] = print_markdown,
-        [GB_SHEET_TEXT] = print_text};
+    static void (*const print[])(struct walk *,
+                                 GString *) = {[GB_SHEET_CSV] = print_csv,
+                                               [GB_SHEET_JSON] = print_json,
+                                               [GB_SHEET_MARKDOWN] = print_markdown,
+                                               [GB_SHEET_TEXT] = print_text};
     GString *text = g_string_sized_new(sheet->cells->len + sheet->head->len + 1);
     struct walk walk = {sheet, sheet->cells->str, 0};
     print[format](&walk, text);

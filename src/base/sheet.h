@@ -22,8 +22,8 @@
 struct gb_sheet;
 
 enum gb_sheet_format {
-    GB_SHEET_CSV,      /* comments with '#', a row of names, rows; a missing cell is empty */
-    GB_SHEET_JSON,     /* {"rows": [{name: number, text or null}, ...]} */
+    GB_SHEET_CSV,  /* comments with '#', a row of names, rows; a missing cell is empty */
+    GB_SHEET_JSON, /* {"rows": [{name: number, text or null}, ...]} */
     GB_SHEET_MARKDOWN, /* names, a rule, rows */
     GB_SHEET_TEXT      /* aligned columns; a missing cell is "-" */
 };
@@ -31,15 +31,20 @@ enum gb_sheet_format {
 struct gb_sheet *gb_sheet_new(void);
 void gb_sheet_free(struct gb_sheet *sheet); /* NULL is fine */
 
-/* Adds lines of comment above the columns, or above the next row once there are columns.
- * Empty lines are left out.  Only CSV has comments.  NULL is fine. */
+/* Adds lines of comment above the table.  Empty lines are left out.  NULL is fine. */
 void gb_sheet_comment(struct gb_sheet *sheet, const char *lines);
+
+/* Adds a line of comment above the next row, or below the last.  Only CSV has comments. */
+void gb_sheet_note(struct gb_sheet *sheet, const char *line);
+
+/* CSV gets every name and every cell in quotes, as spreadsheets write it. */
+void gb_sheet_quote(struct gb_sheet *sheet);
 
 /* Adds columns: names separated by commas, or one name by a printf format.
  *
- * format  how cells are printed, a constant: of numbers a printf format for one double
- *         ("%.8g"), or "" for all digits of it; "%s" of texts; "\"%s\"" of texts that CSV
- *         always has in quotes, not only where needed */
+ * format  how cells are printed, a constant.  Numbers: a printf format for one double, as
+ *         "%.8g", or "" for all its digits; "%.0f" for integers.  Texts: "%s", or "\"%s\"" for quotes in CSV
+ *         also where they are not needed, or "`%s`" for code in Markdown. */
 void gb_sheet_columns(struct gb_sheet *sheet, const char *format, const char *names);
 void gb_sheet_column(struct gb_sheet *sheet, const char *format, const char *name, ...)
     G_GNUC_PRINTF(3, 4);

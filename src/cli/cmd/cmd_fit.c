@@ -9,9 +9,9 @@
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
+#include "figures/compaction_series.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
-#include "figures/compaction_series.h"
 #include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
@@ -317,8 +317,8 @@ static bool print_fits(const struct gb_compaction_series *one, bool csv, bool js
         return gb_options_print(fit_output_text(&one->fits, &one->data), err);
     }
     return gb_options_print(gb_sheet_end(sheet_of(&one->fits, &one->data),
-                              json ? GB_SHEET_JSON : GB_SHEET_CSV),
-                 err);
+                                         json ? GB_SHEET_JSON : GB_SHEET_CSV),
+                            err);
 }
 
 static bool fit(struct request *request, char **words, struct gb_error *err)

@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/number.h"
 #include "base/sheet.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
@@ -31,7 +32,11 @@ static bool add_row(const double *value, int columns, void *data, struct gb_erro
     if (filling->varied != NULL) {
         gb_sheet_text(filling->sheet, filling->varied);
     }
-    gb_sheet_numbers(filling->sheet, value, (size_t)columns);
+    for (int k = 0; k < columns; k++) { /* a time step may be infinite: not missing */
+        char number[GB_NUMBER_MAX];
+        g_snprintf(number, sizeof number, "%.17g", value[k]);
+        gb_sheet_text(filling->sheet, number);
+    }
     return true;
 }
 
@@ -66,8 +71,8 @@ static bool set_varied(struct gb_params *scene, const struct variation *variatio
 
 /* All scenes are checked before the first row. */
 static bool fill_scenes(struct gb_sheet *sheet, const struct request *request,
-                        const struct gb_params *params,
-                        const struct variation *variation, struct gb_error *err)
+                        const struct gb_params *params, const struct variation *variation,
+                        struct gb_error *err)
 {
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;

@@ -68,10 +68,9 @@ static void add_mean(struct gb_sheet *sheet, const struct gb_model *model,
     g_string_printf(text, "mean %.6g particles, density %.4f", mean,
                     density_of(model, mean));
     if (cells > 1) {
-        g_string_append_printf(text,
-                               "; standard error %.2g, %.1g; standard deviation %.3g",
-                               error, density_of(model, error),
-                               error * sqrt((double)cells));
+        g_string_append_printf(
+            text, "; standard error %.2g, %.1g; standard deviation %.3g", error,
+            density_of(model, error), error * sqrt((double)cells));
     }
     g_string_append_printf(text, "; %d cell%s of %.5g x ", cells, cells > 1 ? "s" : "",
                            model->edges[0]);
@@ -79,7 +78,7 @@ static void add_mean(struct gb_sheet *sheet, const struct gb_model *model,
         g_string_append_printf(text, "%.5g x ", model->edges[1]);
     }
     g_string_append_printf(text, "%.5g d", model->edges[2]);
-    gb_sheet_comment(sheet, text->str);
+    gb_sheet_note(sheet, text->str);
     g_string_free(text, TRUE);
 }
 
@@ -91,8 +90,9 @@ static bool pack_percolation(const struct gb_params *params, int cells,
     struct gb_model model;
     double *count = g_new(double, (gsize)cells);
     struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, "particles at which the growing cluster joins its images along "
-                            "all axes, P1 section III");
+    gb_sheet_comment(sheet,
+                     "particles at which the growing cluster joins its images along "
+                     "all axes, P1 section III");
     gb_sheet_columns(sheet, "%.0f", "seed,particles");
     gb_sheet_columns(sheet, "%.6f", "density");
     bool good = gb_seed_matters(params) ||

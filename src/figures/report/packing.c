@@ -41,8 +41,7 @@ static struct gb_sheet *packing_sheet(const struct gb_packing *packing)
     GString *text = head_of(state->preset);
     g_string_append_printf(text, "seed: %" PRIu64 "\ndiameter d, m: ", state->seed);
     append_number(text, state->metre_per_length, '\n');
-    g_string_append(text,
-                    is_bed(packing) ? "box of the die, d: " : "periodic cell, d: ");
+    g_string_append(text, is_bed(packing) ? "box of the die, d: " : "periodic cell, d: ");
     append_number(text, state->cell[0], ' ');
     append_number(text, state->cell[1], ' ');
     append_number(text, state->cell[2], '\n');
@@ -55,7 +54,8 @@ static struct gb_sheet *packing_sheet(const struct gb_packing *packing)
     struct gb_sheet *sheet = gb_sheet_new();
     gb_sheet_comment(sheet, text->str);
     g_string_free(text, TRUE);
-    gb_sheet_columns(sheet, "%.17g", is_bed(packing) ? "x_d,y_d,z_d,radius_d" : "x_d,y_d,z_d");
+    gb_sheet_columns(sheet, "%.17g",
+                     is_bed(packing) ? "x_d,y_d,z_d,radius_d" : "x_d,y_d,z_d");
     for (int64_t i = 0; i < state->count; i++) {
         gb_sheet_numbers(sheet, &state->position[3 * i], 3);
         if (is_bed(packing)) {
@@ -70,8 +70,7 @@ static struct gb_sheet *g_sheet(const struct gb_packing *packing)
     GString *text = head_of(packing->state->preset);
     struct gb_sheet *sheet = gb_sheet_new();
     gb_sheet_comment(sheet, text->str);
-    gb_sheet_comment(sheet,
-                     "radial distribution function; r_d is the middle of a bin");
+    gb_sheet_comment(sheet, "radial distribution function; r_d is the middle of a bin");
     gb_sheet_columns(sheet, "%.17g", "r_d,g");
     for (int k = 0; k < packing->bins; k++) {
         gb_sheet_number(sheet, (k + 0.5) * packing->r_max / packing->bins);
