@@ -7,10 +7,6 @@
 
 /* What --json prints: one object on one or more lines, ended by a newline. */
 
-/* Of a table of CSV: {"rows": [{column: number, text or null}, ...]}.  Comment lines are
- * left out, an empty cell is null.  A column has one type. */
-void gb_json_output_table(const char *csv);
-
 /* Of a list: {name: [...]}.  Between both the elements are added to the builder, which the
  * second prints and frees. */
 JsonBuilder *gb_json_output_begin(const char *name);

@@ -297,6 +297,14 @@ bool gb_options_output_failed(struct gb_error *err)
     return gb_error_set(err, GB_ERR_MACHINE, "standard output: %s", g_strerror(number));
 }
 
+bool gb_options_print(GString *text, struct gb_error *err)
+{
+    const bool good = (gb_visible_put(stdout, text->str) && fflush(stdout) == 0) ||
+                      gb_options_output_failed(err);
+    g_string_free(text, TRUE);
+    return good;
+}
+
 char *gb_options_command(const char *head, int argc, char **argv)
 {
     GString *text = g_string_new(head);

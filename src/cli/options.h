@@ -60,6 +60,9 @@ char *gb_options_command(const char *head, int argc, char **argv);
  * reader of a pipe has closed it. */
 int gb_options_fail(const struct gb_error *err);
 
+/* Prints a text on stdout and frees it.  Errors: of gb_options_output_failed. */
+bool gb_options_print(GString *text, struct gb_error *err);
+
 /* Call when writing to stdout failed, before errno changes.  Returns false. */
 bool gb_options_output_failed(struct gb_error *err);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "many/runset.h"
 #include "measure/fit/average.h"
@@ -610,39 +611,34 @@ bool gb_series_check_drawable(const struct gb_series *series, const char *figure
                                   figure, series->x.name, first);
 }
 
-static void append_notes(GString *text, const char *notes)
+/* Notes hold titles of presets: neither formulas nor control characters of a terminal. */
+static void add_notes(struct gb_sheet *sheet, const char *notes)
 {
     char **lines = g_strsplit(notes, "\n", -1);
     for (size_t i = 0; lines[i] != NULL; i++) {
-        if (lines[i][0] != '\0') {
-            g_string_append(text, "# ");
-            gb_visible_add_cell(text, lines[i], false);
-            g_string_append_c(text, '\n');
-        }
+        GString *line = g_string_new(NULL);
+        gb_visible_add_cell(line, lines[i], false);
+        gb_sheet_comment(sheet, line->str);
+        g_string_free(line, TRUE);
     }
     g_strfreev(lines);
 }
 
 GString *gb_series_csv(const struct gb_series *series)
 {
-    GString *text = g_string_new(NULL);
-    append_notes(text, series->notes->str);
+    struct gb_sheet *sheet = gb_sheet_new();
+    add_notes(sheet, series->notes->str);
     for (guint k = 0; k < series->names->len; k++) {
-        g_string_append_printf(text, "%s%s", k > 0 ? "," : "",
-                               (const char *)g_ptr_array_index(series->names, k));
+        const char *name = g_ptr_array_index(series->names, k);
+        gb_sheet_column(sheet, "%.12g", "%s", name);
     }
-    g_string_append_c(text, '\n');
     for (size_t i = 0; i < series->rows; i++) {
         for (guint k = 0; k < series->columns->len; k++) {
             const double *column = g_ptr_array_index(series->columns, k);
-            g_string_append(text, k > 0 ? "," : "");
-            if (isfinite(column[i])) {
-                g_string_append_printf(text, "%.12g", column[i]);
-            }
+            gb_sheet_number(sheet, column[i]);
         }
-        g_string_append_c(text, '\n');
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 static bool load_curves(struct gb_average_curve *curves, double **points,

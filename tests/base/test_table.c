@@ -5,6 +5,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
+#include "base/sheet.h"
 #include "base/table.h"
 
 static char *path;
@@ -127,6 +128,96 @@ static void test_hostile(void)
     g_string_free(wide, TRUE);
 }
 
+static void expect_printed(const struct gb_sheet *sheet, enum gb_sheet_format format,
+                           const char *expected)
+{
+    GString *text = gb_sheet_print(sheet, format);
+    g_assert_cmpstr(text->str, ==, expected);
+    g_string_free(text, TRUE);
+}
+
+/* One filled sheet in every format; the reader takes its CSV. */
+static void test_sheet(void)
+{
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "`%s`", "name");
+    gb_sheet_column(sheet, "%.3g", "p_%s", "MPa");
+    gb_sheet_columns(sheet, "", "x");
+    gb_sheet_columns(sheet, "%.0f", "seed");
+    gb_sheet_comment(sheet, "first\n\nsecond");
+    gb_sheet_comment(sheet, NULL);
+    gb_sheet_text(sheet, "load");
+    gb_sheet_numbers(sheet, (const double[]){0.00012345, 0.1}, 2);
+    gb_sheet_whole(sheet, UINT64_MAX);
+    gb_sheet_note(sheet, "between");
+    gb_sheet_text(sheet, "µ");
+    gb_sheet_numbers(sheet, (const double[]){INFINITY, 2e-30, NAN}, 3);
+    gb_sheet_note(sheet, "last");
+    expect_printed(sheet, GB_SHEET_CSV,
+                   "# first\n# second\nname,p_MPa,x,seed\n"
+                   "load,0.000123,0.1,18446744073709551615\n"
+                   "# between\nµ,,2e-30,\n# last\n");
+    expect_printed(
+        sheet, GB_SHEET_JSON,
+        "{\n  \"rows\" : [\n    {\n      \"name\" : \"load\",\n"
+        "      \"p_MPa\" : 0.00012300000000000001,\n      \"x\" : 0.10000000000000001,\n"
+        "      \"seed\" : 18446744073709551615\n    },\n    {\n"
+        "      \"name\" : \"µ\",\n      \"p_MPa\" : null,\n"
+        "      \"x\" : 2.0000000000000002e-30,\n      \"seed\" : null\n"
+        "    }\n  ]\n}\n");
+    expect_printed(sheet, GB_SHEET_MARKDOWN,
+                   "| name | p_MPa | x | seed |\n|---|---|---|---|\n"
+                   "| `load` | 0.000123 | 0.1 | 18446744073709551615 |\n"
+                   "| `µ` |  | 2e-30 |  |\n");
+    expect_printed(sheet, GB_SHEET_TEXT,
+                   "name     p_MPa      x                  seed\n"
+                   "load  0.000123    0.1  18446744073709551615\n"
+                   "µ            -  2e-30                     -\n");
+    gb_sheet_free(sheet);
+    char *folder = g_path_get_dirname(path);
+    sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%s", "name");
+    gb_sheet_columns(sheet, "%.17g", "x,seed");
+    gb_sheet_text(sheet, "a");
+    gb_sheet_number(sheet, 0.1);
+    gb_sheet_whole(sheet, UINT64_MAX);
+    g_assert_true(gb_sheet_store(sheet, folder, "curve.csv", &err));
+    g_assert_true(gb_table_read_whole(&table, path, "name", "seed", &err));
+    g_assert_true(gb_table_column(table, "x", &err)[0] == 0.1);
+    g_assert_cmpuint(gb_table_whole(table)[0], ==, UINT64_MAX);
+    gb_table_destroy(table);
+    g_free(folder);
+}
+
+/* What a spreadsheet or a parser could take for the end of a cell. */
+static void test_sheet_escapes(void)
+{
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%s", "a");
+    gb_sheet_columns(sheet, "\"%s\"", "b");
+    gb_sheet_text(sheet, "1,\"2\"\n\x01");
+    gb_sheet_text(sheet, "plain");
+    gb_sheet_text(sheet, "");
+    gb_sheet_text(sheet, NULL);
+    expect_printed(sheet, GB_SHEET_CSV, "a,b\n\"1,\"\"2\"\"\n\x01\",\"plain\"\n,\n");
+    expect_printed(sheet, GB_SHEET_JSON,
+                   "{\n  \"rows\" : [\n    {\n      \"a\" : \"1,\\\"2\\\"\\n\\u0001\",\n"
+                   "      \"b\" : \"plain\"\n    },\n    {\n      \"a\" : null,\n"
+                   "      \"b\" : null\n    }\n  ]\n}\n");
+    gb_sheet_quote(sheet);
+    expect_printed(sheet, GB_SHEET_CSV,
+                   "\"a\",\"b\"\n\"1,\"\"2\"\"\n\x01\",\"plain\"\n\"\",\"\"\n");
+    gb_sheet_free(sheet);
+    sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%s", "a");
+    expect_printed(sheet, GB_SHEET_CSV, "a\n");
+    expect_printed(sheet, GB_SHEET_JSON, "{\n  \"rows\" : []\n}\n");
+    gb_sheet_free(sheet);
+    gb_sheet_free(NULL);
+}
+
 static void test_no_file(void)
 {
     g_remove(path);
@@ -147,6 +238,8 @@ int main(int argc, char **argv)
     g_test_add_func("/table/good", test_good);
     g_test_add_func("/table/whole", test_whole);
     g_test_add_func("/table/hostile", test_hostile);
+    g_test_add_func("/table/sheet", test_sheet);
+    g_test_add_func("/table/sheet-escapes", test_sheet_escapes);
     g_test_add_func("/table/no-file", test_no_file);
     const int status = g_test_run();
     g_remove(path);

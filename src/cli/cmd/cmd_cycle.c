@@ -1,28 +1,13 @@
-#include <math.h>
 #include <stdio.h>
 
 #include <glib.h>
 
 #include "base/number.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "many/die_summary.h"
-
-/* "1.30 +- 0.05", or as CSV "1.3012,0.0512"; empty where there is no value. */
-static void print_value(double mean, double error, gboolean csv)
-{
-    char text[GB_NUMBER_ERROR_MAX] = "-";
-    if (csv) {
-        gb_visible_print(stdout, isfinite(mean) ? ",%.6g" : ",", mean);
-        gb_visible_print(stdout, isfinite(error) ? ",%.3g" : ",", error);
-        return;
-    }
-    if (isfinite(mean)) {
-        gb_number_error(mean, error, 2, " +- ", text);
-    }
-    gb_visible_print(stdout, "  %-20s", text);
-}
 
 /* A column a group; a row a number, with what it means. */
 static void print_table(const struct gb_runset *set)
@@ -37,8 +22,10 @@ static void print_table(const struct gb_runset *set)
         gb_visible_print(stdout, "%-22s", row->name);
         for (size_t g = 0; g < set->groups; g++) {
             double mean = 0.0, error = 0.0;
+            char number[GB_NUMBER_ERROR_MAX];
             gb_die_summary_mean(row, set, g, &mean, &error);
-            print_value(mean, error, FALSE);
+            gb_visible_print(stdout, "  %-20s",
+                             gb_number_error(mean, error, 2, " +- ", number));
         }
         gb_visible_print(stdout, "  %s\n", row->doc);
     }
@@ -55,25 +42,27 @@ static void print_groups(const struct gb_runset *set)
     }
 }
 
-/* A row a group, with the standard error of each number behind it. */
-static void print_csv(const struct gb_runset *set)
+/* A row a group; each number has its standard error after it. */
+static struct gb_sheet *sheet_of(const struct gb_runset *set)
 {
-    gb_visible_print(stdout, "group,beds");
-    for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
-         row++) {
-        gb_visible_print(stdout, ",%s,%s_se", row->name, row->name);
+    const struct gb_die_summary_row *rows = gb_die_summary_table();
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%.0f", "group,beds");
+    for (const struct gb_die_summary_row *row = rows; row->name; row++) {
+        gb_sheet_columns(sheet, "%.6g", row->name);
+        gb_sheet_column(sheet, "%.3g", "%s_se", row->name);
     }
-    gb_visible_print(stdout, "\n");
     for (size_t g = 0; g < set->groups; g++) {
-        gb_visible_print(stdout, "%zu,%zu", g + 1, gb_runset_members(set, g));
-        for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
-             row++) {
+        gb_sheet_whole(sheet, g + 1);
+        gb_sheet_whole(sheet, gb_runset_members(set, g));
+        for (const struct gb_die_summary_row *row = rows; row->name; row++) {
             double mean = 0.0, error = 0.0;
             gb_die_summary_mean(row, set, g, &mean, &error);
-            print_value(mean, error, TRUE);
+            gb_sheet_number(sheet, mean);
+            gb_sheet_number(sheet, error);
         }
-        gb_visible_print(stdout, "\n");
     }
+    return sheet;
 }
 
 static bool show(char **words, gboolean csv, struct gb_error *err)
@@ -90,11 +79,12 @@ static bool show(char **words, gboolean csv, struct gb_error *err)
     if (good) {
         print_groups(&set);
         if (csv) {
-            print_csv(&set);
+            good = gb_options_print(gb_sheet_end(sheet_of(&set), GB_SHEET_CSV), err);
         } else {
             print_table(&set);
+            good =
+                (fflush(stdout) == 0 && !ferror(stdout)) || gb_options_output_failed(err);
         }
-        good = (fflush(stdout) == 0 && !ferror(stdout)) || gb_options_output_failed(err);
     }
     gb_runset_finish(&set);
     g_ptr_array_unref(list);

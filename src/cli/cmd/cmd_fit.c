@@ -3,45 +3,35 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "cli/json_output.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
+#include "figures/compaction_series.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
-#include "figures/compaction_series.h"
 #include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
-/* Fits of the equations of compaction as text; g_string_free. */
-
-/* ",value" with all digits; only "," for none or an infinite one. */
-static void append_cell(GString *text, double value)
+static void add_row(struct gb_sheet *sheet, const char *equation, const char *name,
+                    const struct gb_fit_value *value, const char *unit)
 {
-    char number[GB_NUMBER_MAX];
-    g_string_append_printf(text, ",%s",
-                           isfinite(value) ? gb_number_write(value, number) : "");
+    gb_sheet_text(sheet, equation);
+    gb_sheet_text(sheet, name);
+    gb_sheet_number(sheet, value->value);
+    gb_sheet_number(sheet, value->low);
+    gb_sheet_number(sheet, value->high);
+    gb_sheet_text(sheet, unit);
 }
 
-static void append_row(GString *text, const char *equation, const char *name,
-                       const struct gb_fit_value *value, const char *unit)
-{
-    g_string_append_printf(text, "%s,%s", equation, name);
-    append_cell(text, value->value);
-    append_cell(text, value->low);
-    append_cell(text, value->high);
-    g_string_append_printf(text, ",%s\n", unit);
-}
-
-/* A figure without an interval. */
-static void append_figure(GString *text, const char *equation, const char *name,
-                          double value, const char *unit)
+/* A number without an interval. */
+static void add_figure(struct gb_sheet *sheet, const char *equation, const char *name,
+                       double value, const char *unit)
 {
     const struct gb_fit_value row = {value, NAN, NAN, NAN};
-    append_row(text, equation, name, &row, unit);
+    add_row(sheet, equation, name, &row, unit);
 }
 
 /* The ends of Heckel's straightest stretch, MPa. */
@@ -60,26 +50,29 @@ static bool is_heckel(const struct gb_compaction_fits *fits, size_t index)
 /* Rows equation,parameter,value,low,high,unit by ascending AICc: the parameters, the ends
  * of Heckel's stretch, rms and AICc of each equation that was fitted.  Cells are empty
  * where there is no interval, or no end of it. */
-static GString *fit_output_csv(const struct gb_compaction_fits *fits,
-                               const struct gb_compaction_data *data)
+static struct gb_sheet *sheet_of(const struct gb_compaction_fits *fits,
+                                 const struct gb_compaction_data *data)
 {
-    GString *text = g_string_new("equation,parameter,value,low,high,unit\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%s", "equation,parameter");
+    gb_sheet_columns(sheet, "", "value,low,high");
+    gb_sheet_columns(sheet, "%s", "unit");
     for (size_t i = 0; i < fits->fitted; i++) {
         const char *name = fits->fit[i].equation->name;
         for (size_t k = 0; k < gb_compaction_fits_values(fits, i); k++) {
             const struct gb_compaction_value value = gb_compaction_fits_value(fits, i, k);
-            append_row(text, name, value.name, &value.value, value.unit);
+            add_row(sheet, name, value.name, &value.value, value.unit);
         }
         if (is_heckel(fits, i)) {
             double ends[2];
             stretch_ends(fits, &data->points, ends);
-            append_figure(text, name, "stretch_from", ends[0], "MPa");
-            append_figure(text, name, "stretch_to", ends[1], "MPa");
+            add_figure(sheet, name, "stretch_from", ends[0], "MPa");
+            add_figure(sheet, name, "stretch_to", ends[1], "MPa");
         }
-        append_figure(text, name, "rms", fits->fit[i].all.rms, "1");
-        append_figure(text, name, "aicc", fits->fit[i].all.aicc, "1");
+        add_figure(sheet, name, "rms", fits->fit[i].all.rms, "1");
+        add_figure(sheet, name, "aicc", fits->fit[i].all.aicc, "1");
     }
-    return text;
+    return sheet;
 }
 
 /* What was fitted to what. */
@@ -295,14 +288,6 @@ static void print_refusals(const struct gb_compaction_fits *fits)
     }
 }
 
-static bool print(GString *text, struct gb_error *err)
-{
-    const bool good = (gb_visible_put(stdout, text->str) && fflush(stdout) == 0) ||
-                      gb_options_output_failed(err);
-    g_string_free(text, TRUE);
-    return good;
-}
-
 /* The figure of the same name, with its data beside it. */
 static bool write_figure(const struct gb_compaction_series *one,
                          const struct request *request, struct gb_error *err)
@@ -328,15 +313,12 @@ static bool print_fits(const struct gb_compaction_series *one, bool csv, bool js
     if (csv || json) {
         print_refusals(&one->fits);
     }
-    if (json) {
-        GString *text = fit_output_csv(&one->fits, &one->data);
-        gb_json_output_table(text->str);
-        g_string_free(text, TRUE);
-        return true;
+    if (!csv && !json) {
+        return gb_options_print(fit_output_text(&one->fits, &one->data), err);
     }
-    return print(csv ? fit_output_csv(&one->fits, &one->data)
-                     : fit_output_text(&one->fits, &one->data),
-                 err);
+    return gb_options_print(gb_sheet_end(sheet_of(&one->fits, &one->data),
+                                         json ? GB_SHEET_JSON : GB_SHEET_CSV),
+                            err);
 }
 
 static bool fit(struct request *request, char **words, struct gb_error *err)

@@ -3,6 +3,8 @@
 
 #include <glib.h>
 
+#include "base/number.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -17,16 +19,25 @@ struct request {
 
 enum { VALUES_MAX = 64 };
 
-/* Prints a row; data is the value of the varied key, or NULL. */
-static bool print_row(const double *value, int columns, void *data, struct gb_error *err)
+/* The table, and the value of the varied key, or NULL. */
+struct filling {
+    struct gb_sheet *sheet;
+    const char *varied;
+};
+
+static bool add_row(const double *value, int columns, void *data, struct gb_error *err)
 {
-    if (data != NULL) {
-        gb_visible_print(stdout, "%s,", (const char *)data);
+    const struct filling *filling = data;
+    (void)err;
+    if (filling->varied != NULL) {
+        gb_sheet_text(filling->sheet, filling->varied);
     }
-    for (int k = 0; k < columns; k++) {
-        gb_visible_print(stdout, "%.17g%c", value[k], k + 1 < columns ? ',' : '\n');
+    for (int k = 0; k < columns; k++) { /* a time step may be infinite: not missing */
+        char number[GB_NUMBER_MAX];
+        g_snprintf(number, sizeof number, "%.17g", value[k]);
+        gb_sheet_text(filling->sheet, number);
     }
-    return !ferror(stdout) || gb_options_output_failed(err);
+    return true;
 }
 
 /* The scenes of --vary group.key=A,B,..., one after the other. */
@@ -58,9 +69,10 @@ static bool set_varied(struct gb_params *scene, const struct variation *variatio
     return good;
 }
 
-/* All scenes are checked before the first row is printed. */
-static bool print_scenes(const struct request *request, const struct gb_params *params,
-                         const struct variation *variation, struct gb_error *err)
+/* All scenes are checked before the first row. */
+static bool fill_scenes(struct gb_sheet *sheet, const struct request *request,
+                        const struct gb_params *params, const struct variation *variation,
+                        struct gb_error *err)
 {
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
@@ -69,40 +81,42 @@ static bool print_scenes(const struct request *request, const struct gb_params *
             return false;
         }
     }
-    gb_visible_print(stdout, "%s,%s\n", variation->pair[0], request->rows.law->header);
+    gb_sheet_columns(sheet, "%s", variation->pair[0]);
+    gb_sheet_columns(sheet, "%.17g", request->rows.law->header);
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
+        struct filling filling = {sheet, variation->values[i]};
         if (!set_varied(&scene, variation, i, err) ||
-            !gb_law_table_compute(&request->rows, &scene, print_row, variation->values[i],
-                                  err)) {
+            !gb_law_table_compute(&request->rows, &scene, add_row, &filling, err)) {
             return false;
         }
     }
     return true;
 }
 
-static bool print_varied(const struct request *request, const struct gb_params *params,
-                         struct gb_error *err)
+static bool fill_varied(struct gb_sheet *sheet, const struct request *request,
+                        const struct gb_params *params, struct gb_error *err)
 {
     struct variation variation;
     const bool good = parse_variation(&variation, request->vary, err) &&
-                      print_scenes(request, params, &variation, err);
+                      fill_scenes(sheet, request, params, &variation, err);
     g_strfreev(variation.values);
     g_strfreev(variation.pair);
     return good;
 }
 
-static bool print_law(const struct request *request, const struct gb_params *params,
-                      struct gb_error *err)
+static bool fill(struct gb_sheet *sheet, const struct request *request,
+                 const struct gb_params *params, struct gb_error *err)
 {
     if (request->vary) {
-        return print_varied(request, params, err);
+        return fill_varied(sheet, request, params, err);
     }
     if (!gb_law_table_check(&request->rows, params, err)) {
         return false;
     }
-    gb_visible_print(stdout, "%s\n", request->rows.law->header);
-    return gb_law_table_compute(&request->rows, params, print_row, NULL, err);
+    struct filling filling = {sheet, NULL};
+    gb_sheet_columns(sheet, "%.17g", request->rows.law->header);
+    return gb_law_table_compute(&request->rows, params, add_row, &filling, err);
 }
 
 static bool find_law(const char *name, const struct gb_law_table_law **out,
@@ -149,7 +163,10 @@ static bool run(struct request *request, const char *lattice, char **words, char
     if (!gb_options_preset(&preset, words + 1, sets, GB_OPTIONS_PRESET_OPTIONAL, err)) {
         return false;
     }
-    const bool good = print_law(request, gb_preset_params(preset), err);
+    struct gb_sheet *sheet = gb_sheet_new();
+    const bool good = fill(sheet, request, gb_preset_params(preset), err) &&
+                      gb_options_print(gb_sheet_print(sheet, GB_SHEET_CSV), err);
+    gb_sheet_free(sheet);
     gb_preset_destroy(preset);
     return good;
 }

@@ -9,7 +9,6 @@
 #include "base/number.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
-#include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "figures/states.h"
@@ -222,11 +221,8 @@ static bool moduli_folder_write(const struct moduli_folder *folder, const GArray
     g_array_append_vals(all, states->data, states->len);
     gb_moduli_states_sort(all);
     char *comment = g_strdup_printf("greenbody %s\n%s", GB_VERSION, folder->command);
-    char *path = g_build_filename(folder->path, GB_MODULI_STATES_FILE, NULL);
-    GString *text = gb_moduli_states_csv(all, comment);
-    const bool good = gb_file_replace(path, text->str, text->len, err);
-    g_string_free(text, TRUE);
-    g_free(path);
+    const bool good = gb_sheet_store(gb_moduli_states_sheet(all, comment), folder->path,
+                                     GB_MODULI_STATES_FILE, err);
     g_free(comment);
     g_array_free(all, TRUE);
     return good;
@@ -350,13 +346,9 @@ static bool is_new(void *data, int64_t step)
 static void print_states(const struct request *request, const GArray *states)
 {
     if (request->csv || request->json) {
-        GString *text = gb_moduli_states_csv(states, NULL);
-        if (request->json) {
-            gb_json_output_table(text->str);
-        } else {
-            gb_visible_put(stdout, text->str);
-        }
-        g_string_free(text, TRUE);
+        gb_options_print(gb_sheet_end(gb_moduli_states_sheet(states, NULL),
+                                      request->json ? GB_SHEET_JSON : GB_SHEET_CSV),
+                         NULL); /* main reports an error of stdout */
         return;
     }
     for (guint s = 0; s < states->len; s++) {

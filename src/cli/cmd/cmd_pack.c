@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/alloc.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -56,29 +57,29 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
     return true;
 }
 
-static void print_row(const struct gb_model *model, double count)
-{
-    gb_visible_print(stdout, "%" PRIu64 ",%.0f,%.6f\n", model->seed.value, count,
-                     density_of(model, count));
-}
-
-static void print_mean(const struct gb_model *model, const double *count, int cells)
+/* The mean over the cells, as a comment below their rows. */
+static void add_mean(struct gb_sheet *sheet, const struct gb_model *model,
+                     const double *count, int cells)
 {
     double mean = NAN;
     double error = NAN;
+    GString *text = g_string_new(NULL);
     gb_average_values(count, (size_t)cells, &mean, &error);
-    gb_visible_print(stdout, "# mean %.6g particles, density %.4f", mean,
-                     density_of(model, mean));
+    g_string_printf(text, "mean %.6g particles, density %.4f", mean,
+                    density_of(model, mean));
     if (cells > 1) {
-        gb_visible_print(stdout, "; standard error %.2g, %.1g; standard deviation %.3g",
-                         error, density_of(model, error), error * sqrt((double)cells));
+        g_string_append_printf(
+            text, "; standard error %.2g, %.1g; standard deviation %.3g", error,
+            density_of(model, error), error * sqrt((double)cells));
     }
-    gb_visible_print(stdout, "; %d cell%s of %.5g x ", cells, cells > 1 ? "s" : "",
-                     model->edges[0]);
+    g_string_append_printf(text, "; %d cell%s of %.5g x ", cells, cells > 1 ? "s" : "",
+                           model->edges[0]);
     if (model->dimension == 3) {
-        gb_visible_print(stdout, "%.5g x ", model->edges[1]);
+        g_string_append_printf(text, "%.5g x ", model->edges[1]);
     }
-    gb_visible_print(stdout, "%.5g d\n", model->edges[2]);
+    g_string_append_printf(text, "%.5g d", model->edges[2]);
+    gb_sheet_note(sheet, text->str);
+    g_string_free(text, TRUE);
 }
 
 /* Errors: GB_ERR_INPUT (lattices, those of gb_percolation_find, stdout cannot be written). */
@@ -88,6 +89,12 @@ static bool pack_percolation(const struct gb_params *params, int cells,
     struct gb_params scene = *params;
     struct gb_model model;
     double *count = g_new(double, (gsize)cells);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet,
+                     "particles at which the growing cluster joins its images along "
+                     "all axes, P1 section III");
+    gb_sheet_columns(sheet, "%.0f", "seed,particles");
+    gb_sheet_columns(sheet, "%.6f", "density");
     bool good = gb_seed_matters(params) ||
                 gb_error_set(err, GB_ERR_INPUT,
                              "--percolation: expected structure.kind = grown and no "
@@ -95,20 +102,17 @@ static bool pack_percolation(const struct gb_params *params, int cells,
     for (int k = 0; k < cells && good; k++) {
         scene.seed = params->seed + (uint64_t)k;
         good = find(&scene, &model, &count[k], err);
-        if (good && k == 0) {
-            gb_visible_put(
-                stdout,
-                "# particles at which the growing cluster joins its images along all "
-                "axes, P1 section III\nseed,particles,density\n");
-        }
         if (good) {
-            print_row(&model, count[k]);
+            gb_sheet_whole(sheet, model.seed.value);
+            gb_sheet_number(sheet, count[k]);
+            gb_sheet_number(sheet, density_of(&model, count[k]));
         }
     }
     if (good) {
-        print_mean(&model, count, cells);
-        good = fflush(stdout) == 0 || gb_options_output_failed(err);
+        add_mean(sheet, &model, count, cells);
+        good = gb_options_print(gb_sheet_print(sheet, GB_SHEET_CSV), err);
     }
+    gb_sheet_free(sheet);
     g_free(count);
     return good;
 }

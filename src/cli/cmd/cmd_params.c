@@ -1,7 +1,6 @@
 #include <stdio.h>
-#include <string.h>
 
-#include "base/text/visible.h"
+#include "base/sheet.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -9,14 +8,6 @@
 #include "io/preset_folders.h"
 
 enum { CELL = 320 };
-
-/* Rows of cells, each NULL-terminated and of one length; the first one has the titles. */
-static GPtrArray *begin_table(const char *const *titles)
-{
-    GPtrArray *rows = g_ptr_array_new_with_free_func((GDestroyNotify)g_strfreev);
-    g_ptr_array_add(rows, g_strdupv((char **)(uintptr_t)titles));
-    return rows;
-}
 
 static void write_unit(const struct gb_field *field, char *out, size_t size)
 {
@@ -30,112 +21,65 @@ static void write_unit(const struct gb_field *field, char *out, size_t size)
     }
 }
 
-static GPtrArray *list_keys(void)
+static struct gb_sheet *list_keys(void)
 {
-    static const char *const titles[] = {"key",     "default", "range", "unit",
-                                         "meaning", "source",  NULL};
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
-    GPtrArray *rows = begin_table(titles);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "`%s`", "key");
+    gb_sheet_columns(sheet, "%s", "default,range,unit,meaning,source");
     for (size_t i = 0; i < count; i++) {
-        char **cell = g_new0(char *, G_N_ELEMENTS(titles));
         char text[CELL];
-        cell[0] = g_strdup_printf("%s.%s", field[i].group, field[i].key);
-        cell[1] = g_strdup(*field[i].fallback ? field[i].fallback : "-");
-        cell[2] = g_strdup(gb_params_accepted(&field[i], text, sizeof text));
+        char *key = g_strdup_printf("%s.%s", field[i].group, field[i].key);
+        gb_sheet_text(sheet, key);
+        gb_sheet_text(sheet, *field[i].fallback ? field[i].fallback : "-");
+        gb_sheet_text(sheet, gb_params_accepted(&field[i], text, sizeof text));
         write_unit(&field[i], text, sizeof text);
-        cell[3] = g_strdup(text);
-        cell[4] = g_strdup(field[i].meaning);
-        cell[5] = g_strdup(field[i].source);
-        g_ptr_array_add(rows, cell);
+        gb_sheet_text(sheet, text);
+        gb_sheet_text(sheet, field[i].meaning);
+        gb_sheet_text(sheet, field[i].source);
+        g_free(key);
     }
-    return rows;
+    return sheet;
 }
 
-/* Columns of materials: the name, keys, and where the values come from. */
-static const char *const material_titles[] = {"material", "young",   "poisson", "density",
-                                              "d0",       "epsilon", "yield",   "guessed",
-                                              "file",     NULL};
-enum { GUESSED = 7, MATERIAL_FILE };
-
-/* The values of a material, and its file; of one that cannot be read, why. */
-static char **describe_material(const char *name)
+/* The values of a material, those that are guessed, and its file; why it cannot be read. */
+static void add_material(struct gb_sheet *sheet, const char *name)
 {
+    static const char *const keys[] = {"young", "poisson", "density",
+                                       "d0",    "epsilon", "yield"};
     struct gb_params params;
     struct gb_error err = {0};
-    char **cell = g_new0(char *, G_N_ELEMENTS(material_titles));
     gb_params_init(&params);
     const bool good = gb_material_apply(&params, name, &err);
-    cell[0] = g_strdup(name);
-    for (int k = 1; k < GUESSED; k++) {
+    char *path = good ? gb_material_path(name, NULL) : g_strdup(err.text);
+    char *guessed = good ? gb_material_guessed(path) : g_strdup("");
+    gb_sheet_text(sheet, name);
+    for (size_t k = 0; k < G_N_ELEMENTS(keys); k++) {
         char text[GB_PARAMS_VALUE_MAX] = "-";
         if (good) {
-            gb_params_format(&params,
-                             gb_params_find(GB_MATERIAL_GROUP, material_titles[k]), text,
+            gb_params_format(&params, gb_params_find(GB_MATERIAL_GROUP, keys[k]), text,
                              sizeof text);
         }
-        cell[k] = g_strdup(text);
+        gb_sheet_text(sheet, text);
     }
-    cell[MATERIAL_FILE] = good ? gb_material_path(name, NULL) : g_strdup(err.text);
-    cell[GUESSED] = good ? gb_material_guessed(cell[MATERIAL_FILE]) : g_strdup("");
-    if (*cell[GUESSED] == '\0') {
-        g_free(cell[GUESSED]);
-        cell[GUESSED] = g_strdup("-");
-    }
-    return cell;
+    gb_sheet_text(sheet, *guessed != '\0' ? guessed : "-");
+    gb_sheet_text(sheet, path);
+    g_free(guessed);
+    g_free(path);
 }
 
-static GPtrArray *list_materials(void)
+static struct gb_sheet *list_materials(void)
 {
-    GPtrArray *rows = begin_table(material_titles);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "`%s`", "material");
+    gb_sheet_columns(sheet, "%s", "young,poisson,density,d0,epsilon,yield,guessed,file");
     char **names = gb_preset_folders_list_materials();
     for (int i = 0; names[i] != NULL; i++) {
-        g_ptr_array_add(rows, describe_material(names[i]));
+        add_material(sheet, names[i]);
     }
     g_strfreev(names);
-    return rows;
-}
-
-static void print_markdown(const GPtrArray *rows)
-{
-    for (guint i = 0; i < rows->len; i++) {
-        char **cell = g_ptr_array_index(rows, i);
-        gb_visible_print(stdout, i > 0 ? "| `%s` |" : "| %s |", cell[0]);
-        for (int k = 1; cell[k] != NULL; k++) {
-            gb_visible_print(stdout, " %s |", cell[k]);
-        }
-        for (int k = 0; i == 0 && cell[k] != NULL; k++) {
-            gb_visible_put(stdout, k > 0 ? "---|" : "\n|---|");
-        }
-        gb_visible_put(stdout, "\n");
-    }
-}
-
-static int width_of(const GPtrArray *rows, int column)
-{
-    int width = 0;
-    for (guint i = 0; i < rows->len; i++) {
-        char **cell = g_ptr_array_index(rows, i);
-        width = MAX(width, (int)strlen(cell[column]));
-    }
-    return width;
-}
-
-static void print_plain(const GPtrArray *rows)
-{
-    const guint columns = g_strv_length(g_ptr_array_index(rows, 0));
-    int *width = g_new(int, columns);
-    for (guint k = 0; k < columns; k++) {
-        width[k] = k + 1 < columns ? width_of(rows, (int)k) : 0;
-    }
-    for (guint i = 0; i < rows->len; i++) {
-        char **cell = g_ptr_array_index(rows, i);
-        for (guint k = 0; k < columns; k++) {
-            gb_visible_print(stdout, "%-*s%s", width[k], cell[k],
-                             k + 1 < columns ? "  " : "\n");
-        }
-    }
-    g_free(width);
+    return sheet;
 }
 
 int gb_cmd_params(int argc, char **argv)
@@ -167,12 +111,9 @@ int gb_cmd_params(int argc, char **argv)
         return gb_options_fail(&err);
     }
     g_strfreev(words);
-    GPtrArray *rows = materials ? list_materials() : list_keys();
-    if (markdown) {
-        print_markdown(rows);
-    } else {
-        print_plain(rows);
-    }
-    g_ptr_array_unref(rows);
-    return 0;
+    const bool good =
+        gb_options_print(gb_sheet_end(materials ? list_materials() : list_keys(),
+                                      markdown ? GB_SHEET_MARKDOWN : GB_SHEET_TEXT),
+                         &err);
+    return good ? 0 : gb_options_fail(&err);
 }

@@ -150,11 +150,7 @@ static bool write_series(const struct gb_series *series, const struct request *r
                                     &page.per_inch, err) &&
                gb_plotting_write(series, &page, request->output, err);
     }
-    GString *text = gb_series_csv(series);
-    const bool good = (gb_visible_put(stdout, text->str) && fflush(stdout) == 0) ||
-                      gb_options_output_failed(err);
-    g_string_free(text, TRUE);
-    return good;
+    return gb_options_print(gb_series_csv(series), err);
 }
 
 static void set_log(struct gb_series *series, const char *axes)

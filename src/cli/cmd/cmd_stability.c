@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -15,24 +16,15 @@
 #include "scene/tolerances.h"
 #include "study/stability/stability.h"
 
-static void add_number(GString *text, double value)
+static void add_row(struct gb_sheet *sheet, const struct gb_stability_row *row)
 {
-    g_string_append_c(text, ',');
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.8g", value);
-    }
-}
-
-static void add_row(GString *text, const struct gb_stability_row *row)
-{
-    g_string_append_printf(text, "%s,%s,%s", row->method, row->scene, row->law);
     const double number[] = {
         row->damping, row->exact, row->theory, row->measured, row->measured / row->theory,
         row->used};
-    for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
-        add_number(text, number[i]);
-    }
-    g_string_append_c(text, '\n');
+    gb_sheet_text(sheet, row->method);
+    gb_sheet_text(sheet, row->scene);
+    gb_sheet_text(sheet, row->law);
+    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
 }
 
 static void print_row(const struct gb_stability_row *row)
@@ -47,7 +39,7 @@ static void print_row(const struct gb_stability_row *row)
                      row->measured, row->measured / row->theory, row->used);
 }
 
-static bool measure(GString *csv, struct gb_error *err)
+static bool measure(struct gb_sheet *sheet, struct gb_error *err)
 {
     gb_visible_put(
         stdout,
@@ -59,22 +51,25 @@ static bool measure(GString *csv, struct gb_error *err)
             return false;
         }
         print_row(&row);
-        add_row(csv, &row);
+        add_row(sheet, &row);
         fflush(stdout);
     }
     return true;
 }
 
-static bool write_csv(const GString *csv, const char *directory, struct gb_error *err)
+static bool write_sheet(const struct gb_sheet *sheet, const char *directory,
+                        struct gb_error *err)
 {
     if (directory == NULL) {
         return true;
     }
+    GString *csv = gb_sheet_print(sheet, GB_SHEET_CSV);
     char *path = g_build_filename(directory, "stability.csv", NULL);
     const bool good =
         (g_mkdir_with_parents(directory, 0777) == 0 ||
          gb_error_set(err, GB_ERR_MACHINE, "%.300s: cannot be made", directory)) &&
         gb_file_replace(path, csv->str, csv->len, err);
+    g_string_free(csv, TRUE);
     g_free(path);
     return good;
 }
@@ -82,12 +77,14 @@ static bool write_csv(const GString *csv, const char *directory, struct gb_error
 /* Each method at each packing of the study. */
 static bool perform_study(const char *directory, struct gb_error *err)
 {
-    GString *csv = g_string_new(
-        "# greenbody " GB_VERSION "\n"
-        "# steps in sqrt(m/(E d)), of steepest in 1/(E d); ratio: measured / theory\n"
-        "method,scene,law,damping,closed_form,theory,measured,ratio,used\n");
-    const bool good = measure(csv, err) && write_csv(csv, directory, err);
-    g_string_free(csv, TRUE);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, "greenbody " GB_VERSION "\n"
+                            "steps in sqrt(m/(E d)), of steepest in 1/(E d); ratio: "
+                            "measured / theory");
+    gb_sheet_columns(sheet, "%s", "method,scene,law");
+    gb_sheet_columns(sheet, "%.8g", "damping,closed_form,theory,measured,ratio,used");
+    const bool good = measure(sheet, err) && write_sheet(sheet, directory, err);
+    gb_sheet_free(sheet);
     return good;
 }
 
@@ -96,7 +93,7 @@ static bool perform_study(const char *directory, struct gb_error *err)
 struct scene {
     char *directory, *at, *command;
     gboolean quiet;
-    GString *csv;
+    struct gb_sheet *sheet;
     int rows, rows_most, missed;
     char method[16];    /* the least margin so far: its method ... */
     double least, step; /* ... measured / used, and the step that was measured */
@@ -126,8 +123,8 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         gb_visible_line(stderr, "%d of %d states: %s, p %.4g MPa", scene->rows,
                         scene->rows_most, row->method, 1e-6 * row->p_pa);
     }
-    gb_stability_add(scene->csv, row);
-    return write_csv(scene->csv, scene->directory, err);
+    gb_stability_add(scene->sheet, row);
+    return write_sheet(scene->sheet, scene->directory, err);
 }
 
 static void say_skipped(void *data, double p_pa, const char *why)
@@ -171,10 +168,9 @@ static bool perform_scene(struct scene *scene, char **words, char **sets,
                 gb_options_scene(&preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err);
     if (good) {
         const struct gb_params *params = gb_preset_params(preset);
-        char *comment =
-            g_strdup_printf("# greenbody " GB_VERSION "\n# preset: %s\n# %s\n",
-                            params->title, scene->command);
-        scene->csv = gb_stability_table(comment);
+        char *comment = g_strdup_printf("greenbody " GB_VERSION "\npreset: %s\n%s",
+                                        params->title, scene->command);
+        scene->sheet = gb_stability_table(comment);
         g_free(comment);
         int first = 0;
         scene->rows_most = gb_stability_methods(params, &first) *
@@ -189,7 +185,7 @@ static bool perform_scene(struct scene *scene, char **words, char **sets,
                                 "the run has ended before %d of the %d points asked for",
                                 scene->missed, points.count);
         }
-        g_string_free(scene->csv, TRUE);
+        gb_sheet_free(scene->sheet);
     }
     gb_preset_destroy(preset);
     return good;

@@ -8,6 +8,7 @@
 #include <json-glib/json-glib.h>
 
 #include "base/file.h"
+#include "base/sheet.h"
 #include "io/preset.h"
 #include "io/status/status_json.h"
 
@@ -18,13 +19,15 @@ static void append_number(GString *text, double value, char end)
     g_string_append_c(text, end);
 }
 
-static void append_title(GString *text, const char *title)
+/* Comment lines: the version and the preset. */
+static GString *head_of(const char *title)
 {
-    g_string_append(text, "# greenbody " GB_VERSION "\n# preset: ");
+    GString *text = g_string_new("greenbody " GB_VERSION "\npreset: ");
     for (const char *c = title; *c != '\0'; c++) {
         g_string_append_c(text, g_ascii_iscntrl(*c) ? '?' : *c);
     }
     g_string_append_c(text, '\n');
+    return text;
 }
 
 static bool is_bed(const struct gb_packing *packing)
@@ -32,47 +35,49 @@ static bool is_bed(const struct gb_packing *packing)
     return packing->state->die_radius > 0.0;
 }
 
-static GString *packing_text(const struct gb_packing *packing)
+static struct gb_sheet *packing_sheet(const struct gb_packing *packing)
 {
     const struct gb_state *state = packing->state;
-    GString *text = g_string_new(NULL);
-    append_title(text, state->preset);
-    g_string_append_printf(text, "# seed: %" PRIu64 "\n# diameter d, m: ", state->seed);
+    GString *text = head_of(state->preset);
+    g_string_append_printf(text, "seed: %" PRIu64 "\ndiameter d, m: ", state->seed);
     append_number(text, state->metre_per_length, '\n');
-    g_string_append(text,
-                    is_bed(packing) ? "# box of the die, d: " : "# periodic cell, d: ");
+    g_string_append(text, is_bed(packing) ? "box of the die, d: " : "periodic cell, d: ");
     append_number(text, state->cell[0], ' ');
     append_number(text, state->cell[1], ' ');
     append_number(text, state->cell[2], '\n');
     if (state->tilt[0] != 0.0 || state->tilt[1] != 0.0 || state->tilt[2] != 0.0) {
-        g_string_append(text, "# tilts xy xz yz, d: ");
+        g_string_append(text, "tilts xy xz yz, d: ");
         append_number(text, state->tilt[0], ' ');
         append_number(text, state->tilt[1], ' ');
         append_number(text, state->tilt[2], '\n');
     }
-    g_string_append(text, is_bed(packing) ? "x_d,y_d,z_d,radius_d\n" : "x_d,y_d,z_d\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, text->str);
+    g_string_free(text, TRUE);
+    gb_sheet_columns(sheet, "%.17g",
+                     is_bed(packing) ? "x_d,y_d,z_d,radius_d" : "x_d,y_d,z_d");
     for (int64_t i = 0; i < state->count; i++) {
-        append_number(text, state->position[3 * i], ',');
-        append_number(text, state->position[3 * i + 1], ',');
-        append_number(text, state->position[3 * i + 2], is_bed(packing) ? ',' : '\n');
+        gb_sheet_numbers(sheet, &state->position[3 * i], 3);
         if (is_bed(packing)) {
-            append_number(text, state->radius[i], '\n');
+            gb_sheet_number(sheet, state->radius[i]);
         }
     }
-    return text;
+    return sheet;
 }
 
-static GString *g_text(const struct gb_packing *packing)
+static struct gb_sheet *g_sheet(const struct gb_packing *packing)
 {
-    GString *text = g_string_new(NULL);
-    append_title(text, packing->state->preset);
-    g_string_append(text, "# radial distribution function; r_d is the middle of a bin\n");
-    g_string_append(text, "r_d,g\n");
+    GString *text = head_of(packing->state->preset);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, text->str);
+    gb_sheet_comment(sheet, "radial distribution function; r_d is the middle of a bin");
+    gb_sheet_columns(sheet, "%.17g", "r_d,g");
     for (int k = 0; k < packing->bins; k++) {
-        append_number(text, (k + 0.5) * packing->r_max / packing->bins, ',');
-        append_number(text, packing->g[k], '\n');
+        gb_sheet_number(sheet, (k + 0.5) * packing->r_max / packing->bins);
+        gb_sheet_number(sheet, packing->g[k]);
     }
-    return text;
+    g_string_free(text, TRUE);
+    return sheet;
 }
 
 static void add_number(JsonBuilder *builder, const char *name, double value)
@@ -173,9 +178,9 @@ bool gb_packing_write(const struct gb_packing *packing, const char *directory,
     char *state = g_build_filename(directory, "state.h5", NULL);
     const bool written =
         write_preset(packing, directory, err) &&
-        write_file(directory, "packing.csv", packing_text(packing), err) &&
+        gb_sheet_store(packing_sheet(packing), directory, "packing.csv", err) &&
         (is_bed(packing) ||
-         (write_file(directory, "g.csv", g_text(packing), err) &&
+         (gb_sheet_store(g_sheet(packing), directory, "g.csv", err) &&
           write_file(directory, "structure.json", structure_text(packing), err))) &&
         gb_state_write(packing->state, NULL, state, err);
     g_free(state);

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/file.h"
 #include "base/number.h"
+#include "base/sheet.h"
 #include "figures/report/report.h"
 #include "figures/series.h"
 #include "io/measured.h"
@@ -61,20 +61,22 @@ static void put_mean_cell(struct gb_report_table *table, double mean, double err
     }
 }
 
-static void append_csv(GString *text, const char *const *cells,
-                       const struct gb_report_table *table)
+/* A table of the page as one for spreadsheets: everything in quotes, no markup. */
+static struct gb_sheet *sheet_of(const struct gb_report_table *table)
 {
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_quote(sheet);
     for (guint k = 0; k < table->columns; k++) {
-        char *plain =
-            (int)k == table->markup ? gb_page_plain(cells[k]) : g_strdup(cells[k]);
-        char **parts = g_strsplit(plain, "\"", -1);
-        char *quoted = g_strjoinv("\"\"", parts);
-        g_string_append_printf(text, "%s\"%s\"", k > 0 ? "," : "", quoted);
-        g_free(quoted);
-        g_free(plain);
-        g_strfreev(parts);
+        gb_sheet_column(sheet, "%s", "%s", table->heads[k]);
     }
-    g_string_append_c(text, '\n');
+    for (guint k = 0; k < table->cells->len; k++) {
+        const char *cell = g_ptr_array_index(table->cells, k);
+        char *plain = (int)(k % table->columns) == table->markup ? gb_page_plain(cell)
+                                                                 : g_strdup(cell);
+        gb_sheet_text(sheet, plain);
+        g_free(plain);
+    }
+    return sheet;
 }
 
 bool gb_report_tables_end(struct gb_report *report, struct gb_report_table *table,
@@ -86,19 +88,11 @@ bool gb_report_tables_end(struct gb_report *report, struct gb_report_table *tabl
     }
     char *numbered = g_strdup_printf("Table %d. %s", ++report->tables, caption);
     char *file = g_strdup_printf("tables/%s.csv", name);
-    char *path = g_build_filename(report->folder, file, NULL);
-    GString *text = g_string_new(NULL);
-    append_csv(text, table->heads, table);
-    for (guint k = 0; k + table->columns <= table->cells->len; k += table->columns) {
-        append_csv(text, (const char *const *)table->cells->pdata + k, table);
-    }
-    const bool good = gb_file_replace(path, text->str, text->len, err);
+    const bool good = gb_sheet_store(sheet_of(table), report->folder, file, err);
     const struct gb_page_table_content content = {numbered, file, table->heads,
                                                   table->columns, table->markup};
     gb_page_table(&report->page, &content, table->cells);
-    g_string_free(text, TRUE);
     g_free(numbered);
-    g_free(path);
     g_free(file);
     g_ptr_array_unref(table->cells);
     return good;

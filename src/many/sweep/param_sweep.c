@@ -12,6 +12,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "greenbody/snapshot.h"
@@ -291,28 +292,22 @@ size_t gb_param_sweep_shortfalls(const struct gb_ensemble *ensemble)
     return runs;
 }
 
-static void append_number(GString *text, double value)
-{
-    g_string_append_c(text, ',');
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.12g", value);
-    }
-}
-
 /* The varied values of a point as cells; numbers in the unit that the column names. */
-static void append_values(GString *text, const struct gb_axes *axes, size_t point)
+static void add_values(struct gb_sheet *sheet, const struct gb_axes *axes, size_t point)
 {
     for (size_t i = 0; i < axes->count; i++) {
         char cell[GB_PARAMS_VALUE_MAX];
+        GString *text = g_string_new(NULL);
         gb_axes_cell(axes, point, i, cell, sizeof cell);
-        g_string_append_c(text, ',');
         gb_visible_add_cell(text, cell, true);
+        gb_sheet_text(sheet, text->str);
+        g_string_free(text, TRUE);
     }
 }
 
-static void append_rows(GString *text, const struct gb_sweep_readings *readings,
-                        const struct gb_axes *axes, size_t point,
-                        const struct gb_sweep_table_pressures *at)
+static void add_rows(struct gb_sheet *sheet, const struct gb_sweep_readings *readings,
+                     const struct gb_axes *axes, size_t point,
+                     const struct gb_sweep_table_pressures *at)
 {
     for (size_t b = 0; b < GB_SWEEP_BRANCHES; b++) {
         for (size_t p = 0; p < at->count; p++) {
@@ -324,107 +319,97 @@ static void append_rows(GString *text, const struct gb_sweep_readings *readings,
             if (runs == 0) {
                 continue;
             }
-            g_string_append_printf(text, "%zu", point + 1);
-            append_values(text, axes, point);
-            g_string_append_printf(text, ",%s,%.12g,%zu", gb_param_sweep_branch(b),
-                                   at->pa[p] / 1e6, runs);
+            gb_sheet_whole(sheet, point + 1);
+            add_values(sheet, axes, point);
+            gb_sheet_text(sheet, gb_param_sweep_branch(b));
+            gb_sheet_number(sheet, at->pa[p] / 1e6);
+            gb_sheet_whole(sheet, runs);
             for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
                 gb_average_values(gb_param_sweep_readings_at(readings, b, p, q),
                                   readings->runs, &mean, &error);
-                append_number(text, mean);
-                append_number(text, error);
+                gb_sheet_number(sheet, mean);
+                gb_sheet_number(sheet, error);
             }
-            g_string_append_c(text, '\n');
         }
     }
 }
 
-/* Runs that count although they fell short. */
-static void append_shortfalls(GString *text, const struct gb_ensemble *ensemble)
+static struct gb_sheet *new_means(const struct gb_axes *axes,
+                                  const struct gb_ensemble *ensemble)
 {
-    const size_t runs = gb_param_sweep_shortfalls(ensemble);
-    if (runs > 0) {
-        g_string_append_printf(text,
-                               "# runs that missed a goal or have points that are not "
-                               "in equilibrium: %zu (runs.csv)\n",
-                               runs);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(
+        sheet,
+        "greenbody " GB_VERSION "\n"
+        "means over the runs of a point and their standard errors (se_); load: where "
+        "the mean\npressure over the compressed axes first reaches p_MPa; unload: "
+        "after unloading from it");
+    const size_t shortfalls = gb_param_sweep_shortfalls(ensemble);
+    if (shortfalls > 0) { /* runs that count although they fell short */
+        char *note =
+            g_strdup_printf("runs that missed a goal or have points that are not "
+                            "in equilibrium: %zu (runs.csv)",
+                            shortfalls);
+        gb_sheet_comment(sheet, note);
+        g_free(note);
     }
-}
-
-static void append_header(GString *text, const struct gb_axes *axes,
-                          const struct gb_ensemble *ensemble)
-{
-    g_string_append(
-        text,
-        "# greenbody " GB_VERSION "\n"
-        "# means over the runs of a point and their standard errors (se_); load: where "
-        "the mean\n# pressure over the compressed axes first reaches p_MPa; unload: "
-        "after unloading from it\n");
-    append_shortfalls(text, ensemble);
-    g_string_append(text, "point");
+    gb_sheet_columns(sheet, "%.0f", "point");
     for (size_t i = 0; i < axes->count; i++) {
         char *name = gb_axes_column(axes, i);
-        g_string_append_printf(text, ",%s", name);
+        gb_sheet_column(sheet, "%s", "%s", name);
         g_free(name);
     }
-    g_string_append(text, ",branch,p_MPa,runs");
+    gb_sheet_columns(sheet, "%s", "branch");
+    gb_sheet_columns(sheet, "%.12g", "p_MPa,runs");
     for (int q = 0; q < GB_READING_QUANTITIES; q++) {
         const char *name = gb_reading_name((enum gb_reading_quantity)q);
-        g_string_append_printf(text, ",%s,se_%s", name, name);
+        gb_sheet_columns(sheet, "%.12g", name);
+        gb_sheet_column(sheet, "%.12g", "se_%s", name);
     }
-    g_string_append_c(text, '\n');
+    return sheet;
 }
 
 GString *gb_param_sweep_means(struct gb_ensemble *ensemble, const struct gb_axes *axes,
                               const struct gb_sweep_table_pressures *at)
 {
-    GString *text = g_string_new(NULL);
-    append_header(text, axes, ensemble);
+    struct gb_sheet *sheet = new_means(axes, ensemble);
     for (size_t point = 0; point < ensemble->points; point++) {
         struct gb_sweep_readings readings;
         gb_param_sweep_readings_init(&readings, ensemble, point, at);
-        append_rows(text, &readings, axes, point, at);
+        add_rows(sheet, &readings, axes, point, at);
         gb_param_sweep_readings_finish(&readings);
     }
-    return text;
-}
-
-/* Text as one cell, with the quotes of CSV. */
-static void append_quoted(GString *text, const char *word)
-{
-    g_string_append_c(text, '"');
-    for (const char *c = word; *c != '\0'; c++) {
-        g_string_append(text, *c == '"' ? "\"" : "");
-        g_string_append_c(text, *c);
-    }
-    g_string_append_c(text, '"');
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 GString *gb_param_sweep_runs(const struct gb_ensemble *ensemble)
 {
-    GString *text = g_string_new("run,point,seed,state,error\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%s", "run");
+    gb_sheet_columns(sheet, "%.0f", "point,seed");
+    gb_sheet_columns(sheet, "%s", "state");
+    gb_sheet_columns(sheet, "\"%s\"", "error");
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         const struct gb_ensemble_run *run = &ensemble->run[i];
         const bool used = run->replica < gb_ensemble_used(ensemble, run->point);
         if (!run->ended && !used) {
             continue;
         }
+        const bool failed = run->error.code != GB_OK;
         char *name = g_path_get_basename(run->directory);
-        g_string_append_printf(text, "%s,%zu,%" PRIu64 ",%s,", name, run->point + 1,
-                               run->params.seed,
-                               !run->ended                ? "missing"
-                               : run->error.code != GB_OK ? "failed"
-                               : used                     ? "done"
-                                                          : "spare");
         char *shortfall = sweep_shortfall_text(run);
-        if (run->error.code != GB_OK || shortfall != NULL) {
-            append_quoted(text, shortfall != NULL ? shortfall : run->error.text);
-        }
+        gb_sheet_text(sheet, name);
+        gb_sheet_whole(sheet, run->point + 1);
+        gb_sheet_whole(sheet, run->params.seed);
+        gb_sheet_text(sheet, !run->ended ? "missing"
+                             : failed    ? "failed"
+                             : used      ? "done"
+                                         : "spare");
+        gb_sheet_text(sheet, shortfall == NULL && failed ? run->error.text : shortfall);
         g_free(shortfall);
-        g_string_append_c(text, '\n');
         g_free(name);
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 /* --- the sweep ------------------------------------------------------------------------ */

@@ -37,55 +37,35 @@ static const struct gb_moduli_state *state_at(const GArray *states, guint k)
     return &g_array_index(states, struct gb_moduli_state, k);
 }
 
-static void append_number(GString *text, double value)
-{
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.10g", value);
-    }
-}
-
-static void append_head(GString *text, bool errors)
-{
-    for (int k = 0; k < COLUMNS; k++) {
-        g_string_append_printf(text, "%s%s", k > 0 ? "," : "", gb_moduli_table_name(k));
-    }
-    g_string_append(text, errors ? ",replicas,missing" : ",replicas");
-    for (int k = 0; k < COLUMNS && errors; k++) {
-        g_string_append_printf(text, ",error_%s", gb_moduli_table_name(k));
-    }
-    g_string_append_c(text, '\n');
-}
-
-GString *gb_moduli_states_csv(const GArray *states, const char *comment)
+struct gb_sheet *gb_moduli_states_sheet(const GArray *states, const char *comment)
 {
     bool errors = false;
     for (guint s = 0; s < states->len; s++) {
         errors = errors || state_at(states, s)->count + state_at(states, s)->missing > 1;
     }
-    GString *text = g_string_new(NULL);
-    char **lines = g_strsplit(comment != NULL ? comment : "", "\n", 0);
-    for (int i = 0; lines[i] != NULL; i++) {
-        g_string_append_printf(text, "# %s\n", lines[i]);
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    for (int k = 0; k < COLUMNS; k++) {
+        gb_sheet_columns(sheet, "%.10g", gb_moduli_table_name(k));
     }
-    g_strfreev(lines);
-    append_head(text, errors);
+    gb_sheet_columns(sheet, "%.10g", errors ? "replicas,missing" : "replicas");
+    for (int k = 0; k < COLUMNS && errors; k++) {
+        gb_sheet_column(sheet, "%.10g", "error_%s", gb_moduli_table_name(k));
+    }
     for (guint s = 0; s < states->len; s++) {
         const struct gb_moduli_state *state = state_at(states, s);
         for (int k = 0; k < COLUMNS; k++) {
-            append_number(text, gb_moduli_states_mean(state, k));
-            g_string_append_c(text, ',');
+            gb_sheet_number(sheet, gb_moduli_states_mean(state, k));
         }
-        g_string_append_printf(text, "%d", state->count);
+        gb_sheet_number(sheet, state->count);
         if (errors) {
-            g_string_append_printf(text, ",%d", state->missing);
+            gb_sheet_number(sheet, state->missing);
         }
         for (int k = 0; k < COLUMNS && errors; k++) {
-            g_string_append_c(text, ',');
-            append_number(text, gb_moduli_states_error(state, k));
+            gb_sheet_number(sheet, gb_moduli_states_error(state, k));
         }
-        g_string_append_c(text, '\n');
     }
-    return text;
+    return sheet;
 }
 
 static bool read_columns(const struct gb_table *table, const double *column[COLUMNS],

@@ -5,6 +5,7 @@
 
 #include <glib.h>
 
+#include "base/sheet.h"
 #include "run/moduli/moduli_table.h"
 
 /* Moduli of the states of a run: means over replicas with standard errors, and the table
@@ -26,12 +27,13 @@ double gb_moduli_states_mean(const struct gb_moduli_state *state, int column);
 /* Standard error over the replicas; NaN for one. */
 double gb_moduli_states_error(const struct gb_moduli_state *state, int column);
 
-/* A header row and a row per state (struct gb_moduli_state): the columns of the table and
- * `replicas`; where any state has replicas, also `missing`, and error_* of each column.  comment: lines put
- * in front, with '#'; NULL: none.  g_string_free. */
-GString *gb_moduli_states_csv(const GArray *states, const char *comment);
+/* A row per state (struct gb_moduli_state): the columns of the table and `replicas`; where
+ * any state has replicas, also `missing`, and error_* of each column.  comment: lines above
+ * the table; NULL: none. */
+struct gb_sheet *gb_moduli_states_sheet(const GArray *states, const char *comment);
 
-/* Adds the states of a table that gb_moduli_states_csv has written.  Errors: GB_ERR_INPUT for another table, or for one of replicas. */
+/* Adds the states of such a table in a file.  Errors: GB_ERR_INPUT for another table, or
+ * for one of replicas. */
 bool gb_moduli_states_read(GArray *states, const char *path, struct gb_error *err);
 
 /* Whether a state of this step of the run is among them. */

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
+#include "base/sheet.h"
 #include "base/units.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
@@ -283,16 +284,28 @@ static bool simulate(const double *parameters, size_t points,
     return good;
 }
 
-static void add_rounds_header(const struct gb_calibration *calibration)
+static bool write_table(const struct gb_calibration *calibration, const char *name,
+                        GString *text, struct gb_error *err)
 {
-    GString *text = calibration->rounds;
+    char *path = g_build_filename(calibration->directory, name, NULL);
+    const bool good = gb_file_replace(path, text->str, text->len, err);
+    g_free(path);
+    g_string_free(text, TRUE);
+    return good;
+}
+
+static struct gb_sheet *new_rounds(const struct gb_calibration *calibration)
+{
+    struct gb_sheet *sheet = gb_sheet_new();
     char name[96];
-    g_string_append(text, "cells,round");
+    gb_sheet_columns(sheet, "%s", "cells");
+    gb_sheet_columns(sheet, "%.0f", "round");
     for (size_t k = 0; k < calibration->keys.count; k++) {
         gb_calibration_key_name(&calibration->keys.key[k], name, sizeof name);
-        g_string_append_printf(text, ",%s,within_%s", name, name);
+        gb_sheet_column(sheet, "%.5g", "%s", name);
+        gb_sheet_column(sheet, "%.3g", "within_%s", name);
     }
-    g_string_append_c(text, '\n');
+    return sheet;
 }
 
 /* A row of rounds.csv, for other programs that follow the fit; the fit continues when it
@@ -301,16 +314,15 @@ static void add_round(enum gb_calibrate_stage stage, int round, const double *be
                       const double *half_width, void *context)
 {
     struct gb_calibration *calibration = context;
-    GString *text = calibration->rounds;
-    g_string_append_printf(text, "%s,%d", stage == GB_CALIBRATE_COARSE ? "small" : "full",
-                           round);
+    struct gb_sheet *sheet = calibration->rounds;
+    gb_sheet_text(sheet, stage == GB_CALIBRATE_COARSE ? "small" : "full");
+    gb_sheet_number(sheet, round);
     for (size_t k = 0; k < calibration->keys.count; k++) {
-        g_string_append_printf(text, ",%.5g,%.3g", best[k], half_width[k]);
+        gb_sheet_number(sheet, best[k]);
+        gb_sheet_number(sheet, half_width[k]);
     }
-    g_string_append_c(text, '\n');
-    char *path = g_build_filename(calibration->directory, "rounds.csv", NULL);
-    (void)gb_file_replace(path, text->str, text->len, NULL);
-    g_free(path);
+    (void)write_table(calibration, "rounds.csv", gb_sheet_print(sheet, GB_SHEET_CSV),
+                      NULL);
     if (calibration->progress != NULL) {
         calibration->progress(calibration, stage, round, best, half_width,
                               calibration->data);
@@ -345,8 +357,7 @@ static struct gb_calibrate_problem problem_of(struct gb_calibration *calibration
 bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err)
 {
     const struct gb_calibrate_problem problem = problem_of(calibration);
-    calibration->rounds = g_string_new(NULL);
-    add_rounds_header(calibration);
+    calibration->rounds = new_rounds(calibration);
     if (gb_calibrate_fit(&problem, &calibration->result, err)) {
         return true;
     }
@@ -361,10 +372,8 @@ void gb_calibration_finish(struct gb_calibration *calibration)
 {
     gb_calibrate_finish(&calibration->result);
     gb_labdata_finish(&calibration->lab);
-    if (calibration->rounds != NULL) {
-        g_string_free(calibration->rounds, TRUE);
-        calibration->rounds = NULL;
-    }
+    gb_sheet_free(calibration->rounds);
+    calibration->rounds = NULL;
 }
 
 /* --- tables and text ------------------------------------------------------------------ */
@@ -385,49 +394,56 @@ static GString *parameter_table(const struct gb_calibration *calibration)
     const struct gb_calibrate_result *result = &calibration->result;
     const size_t n = calibration->keys.count;
     char name[NAME_MAX_BYTES];
-    GString *text = g_string_new(
-        "# best fit, standard error and 95 % interval; SI, or the "
-        "multiple that the preset gives; open (1): the interval ends at that "
-        "limit of the range\nkey,unit,value,error,low_95,high_95");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, "best fit, standard error and 95 % interval; SI, or the "
+                            "multiple that the preset gives; open (1): the interval ends "
+                            "at that limit of the range");
+    gb_sheet_columns(sheet, "%s", "key,unit");
+    gb_sheet_columns(sheet, "%.8g", "value,error,low_95,high_95");
     for (size_t k = 0; k < n; k++) {
-        g_string_append_printf(text, ",correlation_%s", name_of(calibration, k, name));
+        gb_sheet_column(sheet, "%.4f", "correlation_%s", name_of(calibration, k, name));
     }
-    g_string_append(text, ",low_open,high_open");
+    gb_sheet_columns(sheet, "%.0f", "low_open,high_open");
     for (size_t k = 0; k < n; k++) {
         const struct gb_free_key *key = &calibration->keys.key[k];
-        g_string_append_printf(
-            text, "\n%s,%s,%.8g,%.8g,%.8g,%.8g", name_of(calibration, k, name),
-            key->relative ? key->field->relative : "SI", result->value[k],
-            result->error[k], result->low[k], result->high[k]);
-        for (size_t l = 0; l < n; l++) {
-            g_string_append_printf(text, ",%.4f", result->correlation[k][l]);
-        }
-        g_string_append_printf(text, ",%d,%d", result->low_open[k], result->high_open[k]);
+        gb_sheet_text(sheet, name_of(calibration, k, name));
+        gb_sheet_text(sheet, key->relative ? key->field->relative : "SI");
+        gb_sheet_number(sheet, result->value[k]);
+        gb_sheet_number(sheet, result->error[k]);
+        gb_sheet_number(sheet, result->low[k]);
+        gb_sheet_number(sheet, result->high[k]);
+        gb_sheet_numbers(sheet, result->correlation[k], n);
+        gb_sheet_number(sheet, result->low_open[k]);
+        gb_sheet_number(sheet, result->high_open[k]);
     }
-    g_string_append_c(text, '\n');
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 /* fit.csv: measured values beside those simulated with the best fit. */
 static GString *fit_table(const struct gb_calibration *calibration)
 {
     const struct gb_labdata *lab = &calibration->lab;
-    GString *text = g_string_new("scene,branch,p_MPa,measured,measured_error,simulated,"
-                                 "se_simulated,quantity,weight\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%.0f", "scene");
+    gb_sheet_columns(sheet, "%s", "branch");
+    gb_sheet_columns(sheet, "%.12g", "p_MPa,measured,measured_error");
+    gb_sheet_columns(sheet, "%.8g", "simulated");
+    gb_sheet_columns(sheet, "%.3g", "se_simulated");
+    gb_sheet_columns(sheet, "%s", "quantity");
+    gb_sheet_columns(sheet, "%.12g", "weight");
     for (size_t i = 0; i < lab->count; i++) {
         const struct gb_labdata_row *row = &lab->row[i];
-        g_string_append_printf(text, "%zu,%s,%.12g,%.12g,", row->scene + 1,
-                               row->unloaded ? "unload" : "load", row->pressure_pa / 1e6,
-                               lab->value[i]);
-        if (lab->error != NULL) {
-            g_string_append_printf(text, "%.12g", lab->error[i]);
-        }
-        g_string_append_printf(
-            text, ",%.8g,%.3g,%s,%.12g\n", calibration->result.fitted[i],
-            calibration->result.fitted_error[i], gb_lab_quantity_rows[row->quantity].name,
-            lab->weight != NULL ? lab->weight[i] : 1.0);
+        gb_sheet_whole(sheet, row->scene + 1);
+        gb_sheet_text(sheet, row->unloaded ? "unload" : "load");
+        gb_sheet_number(sheet, row->pressure_pa / 1e6);
+        gb_sheet_number(sheet, lab->value[i]);
+        gb_sheet_number(sheet, lab->error != NULL ? lab->error[i] : (double)NAN);
+        gb_sheet_number(sheet, calibration->result.fitted[i]);
+        gb_sheet_number(sheet, calibration->result.fitted_error[i]);
+        gb_sheet_text(sheet, gb_lab_quantity_rows[row->quantity].name);
+        gb_sheet_number(sheet, lab->weight != NULL ? lab->weight[i] : 1.0);
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 /* Root mean square of the residuals of each quantity. */
@@ -451,16 +467,6 @@ static void add_residuals(GString *text, const struct gb_calibration *calibratio
             between = ",";
         }
     }
-}
-
-static bool write_table(const struct gb_calibration *calibration, const char *name,
-                        GString *text, struct gb_error *err)
-{
-    char *path = g_build_filename(calibration->directory, name, NULL);
-    const bool good = gb_file_replace(path, text->str, text->len, err);
-    g_free(path);
-    g_string_free(text, TRUE);
-    return good;
 }
 
 static const char not_converged[] = "the fit has not converged";

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/sheet.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
 #include "many/ensemble.h"
@@ -53,7 +54,7 @@ struct gb_calibration {
     void *data;
 
     struct gb_calibrate_result result;
-    GString *rounds;         /* content of rounds.csv */
+    struct gb_sheet *rounds; /* rounds.csv */
     struct gb_error machine; /* the first run that the machine failed; GB_OK: none */
 };
 

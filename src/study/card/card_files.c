@@ -4,26 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sheet.h"
 #include "measure/cap/cap_fit.h"
-#include "study/compact/study_text.h"
-
-static void add_comment(GString *text, const char *comment, const char *mark)
-{
-    char **lines = g_strsplit(comment, "\n", 0);
-    for (int i = 0; lines[i] != NULL; i++) {
-        if (lines[i][0] != '\0') {
-            g_string_append_printf(text, "%s %s\n", mark, lines[i]);
-        }
-    }
-    g_strfreev(lines);
-}
-
-static GString *begin(const char *comment, const char *mark)
-{
-    GString *text = g_string_new(NULL);
-    add_comment(text, comment, mark);
-    return text;
-}
 
 GString *gb_card_files_misses(const struct gb_card_study *study)
 {
@@ -47,44 +29,44 @@ GString *gb_card_files_misses(const struct gb_card_study *study)
     return text;
 }
 
-static GString *begin_with_misses(const struct gb_card_study *study, const char *comment,
-                                  const char *mark)
+static void add_value(struct gb_sheet *sheet, const struct gb_fit_value *value,
+                      double factor)
 {
-    GString *text = begin(comment, mark);
-    GString *misses = gb_card_files_misses(study);
-    add_comment(text, misses->str, mark);
-    g_string_free(misses, TRUE);
-    return text;
+    gb_sheet_number(sheet, value->value * factor);
+    gb_sheet_number(sheet, value->low * factor);
+    gb_sheet_number(sheet, value->high * factor);
 }
 
-/* ",value,low,high" */
-static void append_value(GString *text, const struct gb_fit_value *value, double factor)
+static void add_columns(struct gb_sheet *sheet, const char *name)
 {
-    const double number[] = {value->value * factor, value->low * factor,
-                             value->high * factor};
-    g_string_append_c(text, ',');
-    gb_study_text_cells(text, number, G_N_ELEMENTS(number));
+    gb_sheet_column(sheet, "%.8g", "%s", name);
+    gb_sheet_column(sheet, "%.8g", "%s_low", name);
+    gb_sheet_column(sheet, "%.8g", "%s_high", name);
 }
 
 GString *gb_card_files_card(const struct gb_card_study *study, const char *comment)
 {
-    GString *text = begin_with_misses(study, comment, "#");
-    g_string_append(text, "density,pressed_MPa");
+    struct gb_sheet *sheet = gb_sheet_new();
+    GString *misses = gb_card_files_misses(study);
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_comment(sheet, misses->str);
+    gb_sheet_columns(sheet, "%.6g", "density,pressed_MPa");
     for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-        const char *name = gb_card_rows[n].name;
-        g_string_append_printf(text, ",%s,%s_low,%s_high", name, name, name);
+        add_columns(sheet, gb_card_rows[n].name);
     }
-    g_string_append(text, ",transition,rms_MPa\n");
+    gb_sheet_columns(sheet, "%g", "transition");
+    gb_sheet_columns(sheet, "%.4g", "rms_MPa");
     for (int k = 0; k < study->levels; k++) {
-        g_string_append_printf(text, "%.6g,%.6g", study->card.density[k],
-                               study->card.pressed_pa[k] / 1e6);
+        gb_sheet_number(sheet, study->card.density[k]);
+        gb_sheet_number(sheet, study->card.pressed_pa[k] / 1e6);
         for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-            append_value(text, &study->quantity[k][n], gb_card_rows[n].factor);
+            add_value(sheet, &study->quantity[k][n], gb_card_rows[n].factor);
         }
-        g_string_append_printf(text, ",%g,%.4g\n", study->options.transition,
-                               study->card.rms[k] / 1e6);
+        gb_sheet_number(sheet, study->options.transition);
+        gb_sheet_number(sheet, study->card.rms[k] / 1e6);
     }
-    return text;
+    g_string_free(misses, TRUE);
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 GString *gb_card_files_points(const struct gb_card_study *study, const char *comment)
@@ -92,50 +74,72 @@ GString *gb_card_files_points(const struct gb_card_study *study, const char *com
     static const char *const sides[] = {[GB_CAP_FIT_SHEAR] = "shear",
                                         [GB_CAP_FIT_CAP] = "cap",
                                         [GB_CAP_FIT_LEFT_OUT] = "tension"};
-    GString *text = begin(comment, "#");
-    g_string_append(text, "density,direction_deg,p_MPa,p_MPa_error,q_MPa,q_MPa_error,"
-                          "flow_volume,flow_shear,side\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(sheet, "%.6g", "density");
+    gb_sheet_columns(sheet, "%.4g", "direction_deg");
+    gb_sheet_columns(sheet, "%.6g", "p_MPa");
+    gb_sheet_columns(sheet, "%.3g", "p_MPa_error");
+    gb_sheet_columns(sheet, "%.6g", "q_MPa");
+    gb_sheet_columns(sheet, "%.3g", "q_MPa_error");
+    gb_sheet_columns(sheet, "%.4g", "flow_volume,flow_shear");
+    gb_sheet_columns(sheet, "%s", "side");
     for (size_t i = 0; i < study->points; i++) {
         const struct gb_yield_point *point = &study->point[i];
-        g_string_append_printf(
-            text, "%.6g,%.4g,%.6g,%.3g,%.6g,%.3g,%.4g,%.4g,%s\n", point->density,
-            point->direction * 180.0 / M_PI, point->p_pa / 1e6, point->p_error_pa / 1e6,
-            point->q_pa / 1e6, point->q_error_pa / 1e6, point->flow_volume,
-            point->flow_shear, sides[gb_cap_fit_side_of(point)]);
+        const double number[] = {point->density,     point->direction * 180.0 / M_PI,
+                                 point->p_pa / 1e6,  point->p_error_pa / 1e6,
+                                 point->q_pa / 1e6,  point->q_error_pa / 1e6,
+                                 point->flow_volume, point->flow_shear};
+        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+        gb_sheet_text(sheet, sides[gb_cap_fit_side_of(point)]);
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 GString *gb_card_files_path(const struct gb_card_study *study, enum gb_card_path path,
                             const char *comment)
 {
-    static const char *const names[] = {"ratio", "card_ratio", "pz_MPa", "card_pz_MPa"};
-    GString *text = begin(comment, "#");
-    g_string_append(text, "density");
-    for (size_t n = 0; n < G_N_ELEMENTS(names); n++) {
-        g_string_append_printf(text, ",%s,%s_low,%s_high", names[n], names[n], names[n]);
-    }
-    g_string_append_c(text, '\n');
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(sheet, "%.6g", "density");
+    add_columns(sheet, "ratio");
+    add_columns(sheet, "card_ratio");
+    add_columns(sheet, "pz_MPa");
+    add_columns(sheet, "card_pz_MPa");
     for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
         const struct gb_card_compared *at = &study->curve[path][i];
         if (!isfinite(at->simulated_ratio.value) ||
             !isfinite(at->predicted_ratio.value)) {
             continue;
         }
-        g_string_append_printf(text, "%.6g", at->density);
-        append_value(text, &at->simulated_ratio, 1.0);
-        append_value(text, &at->predicted_ratio, 1.0);
-        append_value(text, &at->simulated_pz, 1e-6);
-        append_value(text, &at->predicted_pz, 1e-6);
-        g_string_append_c(text, '\n');
+        gb_sheet_number(sheet, at->density);
+        add_value(sheet, &at->simulated_ratio, 1.0);
+        add_value(sheet, &at->predicted_ratio, 1.0);
+        add_value(sheet, &at->simulated_pz, 1e-6);
+        add_value(sheet, &at->predicted_pz, 1e-6);
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
+}
+
+static void add_comment(GString *text, const char *comment)
+{
+    char **lines = g_strsplit(comment, "\n", 0);
+    for (int i = 0; lines[i] != NULL; i++) {
+        if (lines[i][0] != '\0') {
+            g_string_append_printf(text, "** %s\n", lines[i]);
+        }
+    }
+    g_strfreev(lines);
 }
 
 GString *gb_card_files_abaqus(const struct gb_card_study *study, const char *comment,
                               double mass_density)
 {
-    GString *text = begin_with_misses(study, comment, "**");
+    GString *text = g_string_new(NULL);
+    GString *misses = gb_card_files_misses(study);
+    add_comment(text, comment);
+    add_comment(text, misses->str);
+    g_string_free(misses, TRUE);
     g_string_append_printf(
         text,
         "** Units: mm, N, MPa, tonne.  Field variable 1: relative density of the "

@@ -18,6 +18,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/sheet.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/params.h"
@@ -759,60 +760,43 @@ static bool read_runs(struct gb_chart_log *log, struct gb_error *err)
     return good;
 }
 
-static void add_number(GString *text, double value)
-{
-    g_string_append_c(text, ',');
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.17g", value);
-    }
-}
-
-static void add_numbers(GString *text, const double *number, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        add_number(text, number[i]);
-    }
-}
-
-static void add_row(const struct gb_chart_log *log, GString *text,
+static void add_row(const struct gb_chart_log *log, struct gb_sheet *sheet,
                     const struct gb_chart_run *run)
 {
     const struct gb_chart_setting *c = &run->setting;
-    g_string_append(text, c->relaxer);
     const double setting[] = {(double)c->count, c->strain_step, c->tolerance, c->cutoff,
                               gb_chart_bits(c), c->time_step,   c->step_error};
     const double result[] = {(double)run->failed, run->evaluations, run->cpu_s};
-    add_numbers(text, setting, G_N_ELEMENTS(setting));
-    g_string_append_printf(text, ",%" PRIu64, run->seed);
-    add_numbers(text, result, G_N_ELEMENTS(result));
+    gb_sheet_text(sheet, c->relaxer);
+    gb_sheet_numbers(sheet, setting, G_N_ELEMENTS(setting));
+    gb_sheet_whole(sheet, run->seed);
+    gb_sheet_numbers(sheet, result, G_N_ELEMENTS(result));
     for (int k = 0; k < log->plan->pressures; k++) {
-        add_number(text, run->density[k]);
-        add_number(text, run->coordination[k]);
+        gb_sheet_number(sheet, run->density[k]);
+        gb_sheet_number(sheet, run->coordination[k]);
     }
-    g_string_append_c(text, '\n');
 }
 
 static bool write_runs(const struct gb_chart_log *log, struct gb_error *err)
 {
-    GString *text = g_string_new(
-        "# greenbody " GB_VERSION "\n"
-        "# cells simulated for chart.csv; cpu_s: of the loading, one thread\n"
-        "relaxer,particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,"
-        "seed,failed,evaluations,cpu_s");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, "greenbody " GB_VERSION "\ncells simulated for chart.csv; "
+                            "cpu_s: of the loading, one thread");
+    gb_sheet_columns(sheet, "%s", "relaxer");
+    gb_sheet_columns(sheet, "%.17g",
+                     "particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,seed,"
+                     "failed,evaluations,cpu_s");
     for (int k = 0; k < log->plan->pressures; k++) {
         char name[48];
         column_name(log, "density", k, name, sizeof name);
-        g_string_append_printf(text, ",%s", name);
+        gb_sheet_columns(sheet, "%.17g", name);
         column_name(log, "coordination", k, name, sizeof name);
-        g_string_append_printf(text, ",%s", name);
+        gb_sheet_columns(sheet, "%.17g", name);
     }
-    g_string_append_c(text, '\n');
     for (guint i = 0; i < log->runs->len; i++) {
-        add_row(log, text, &g_array_index(log->runs, struct gb_chart_run, i));
+        add_row(log, sheet, &g_array_index(log->runs, struct gb_chart_run, i));
     }
-    const bool good = gb_chart_keep(log, "runs.csv", text, err);
-    g_string_free(text, TRUE);
-    return good;
+    return gb_sheet_store(sheet, log->directory, "runs.csv", err);
 }
 
 bool gb_chart_open(struct gb_chart_log *log, const char *directory,

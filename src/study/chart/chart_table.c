@@ -14,6 +14,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
+#include "base/sheet.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
 #include "pack/cell/particles.h"
@@ -220,15 +221,7 @@ const struct gb_chart_row *gb_chart_table_chosen(const struct gb_chart_table *ta
     return NULL;
 }
 
-static void add_number(GString *text, double value)
-{
-    g_string_append_c(text, ',');
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.8g", value);
-    }
-}
-
-static void add_head(GString *text, const struct gb_chart_plan *plan)
+static struct gb_sheet *new_sheet(const struct gb_chart_plan *plan, const char *comment)
 {
     static const char *const each[] = {"density",
                                        "error",
@@ -236,20 +229,25 @@ static void add_head(GString *text, const struct gb_chart_plan *plan)
                                        "scatter",
                                        "coordination_error",
                                        "coordination_error_se"};
-    g_string_append(text, "relaxer,particles,step,tolerance,cutoff_d,bits,time_step_T,"
-                          "step_error,reference,seeds,failed,evaluations,cpu_s,bound,"
-                          "noise_limited,front,chosen");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, "greenbody " GB_VERSION);
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(sheet, "%s", "relaxer");
+    gb_sheet_columns(sheet, "%.8g",
+                     "particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,"
+                     "reference,seeds,failed,evaluations,cpu_s,bound,noise_limited,front,"
+                     "chosen");
     for (int k = 0; k < plan->pressures; k++) {
         for (size_t i = 0; i < G_N_ELEMENTS(each); i++) {
-            g_string_append_printf(text, ",%s_%.6gMPa", each[i],
-                                   plan->pressure_pa[k] / 1e6);
+            gb_sheet_column(sheet, "%.8g", "%s_%.6gMPa", each[i],
+                            plan->pressure_pa[k] / 1e6);
         }
     }
-    g_string_append_c(text, '\n');
+    return sheet;
 }
 
-static void add_row(GString *text, const struct gb_chart_row *row, bool reference,
-                    int pressures)
+static void add_row(struct gb_sheet *sheet, const struct gb_chart_row *row,
+                    bool reference, int pressures)
 {
     const struct gb_chart_setting *c = &row->setting;
     const double number[] = {(double)c->count,    c->strain_step,
@@ -260,39 +258,29 @@ static void add_row(GString *text, const struct gb_chart_row *row, bool referenc
                              row->evaluations,    row->cpu_s,
                              row->bound,          (double)row->noise_limited,
                              (double)row->pareto, (double)row->chosen};
-    g_string_append(text, c->relaxer);
-    for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
-        add_number(text, number[i]);
-    }
+    gb_sheet_text(sheet, c->relaxer);
+    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
     for (int k = 0; k < pressures; k++) {
-        add_number(text, row->density[k]);
-        add_number(text, row->error[k]);
-        add_number(text, row->error_se[k]);
-        add_number(text, row->scatter[k]);
-        add_number(text, row->coordination_error[k]);
-        add_number(text, row->coordination_error_se[k]);
+        const double each[] = {row->density[k],
+                               row->error[k],
+                               row->error_se[k],
+                               row->scatter[k],
+                               row->coordination_error[k],
+                               row->coordination_error_se[k]};
+        gb_sheet_numbers(sheet, each, G_N_ELEMENTS(each));
     }
-    g_string_append_c(text, '\n');
 }
 
 GString *gb_chart_table_csv(const struct gb_chart_table *table,
                             const struct gb_chart_plan *plan, const char *comment)
 {
-    GString *text = g_string_new("# greenbody " GB_VERSION "\n");
-    char **lines = g_strsplit(comment, "\n", -1);
-    for (int i = 0; lines[i]; i++) {
-        if (lines[i][0] != '\0') {
-            g_string_append_printf(text, "# %s\n", lines[i]);
-        }
-    }
-    g_strfreev(lines);
-    add_head(text, plan);
+    struct gb_sheet *sheet = new_sheet(plan, comment);
     for (size_t i = 0; i < table->rows; i++) {
         if (table->row[i].seeds > 0) {
-            add_row(text, &table->row[i], i == 0, plan->pressures);
+            add_row(sheet, &table->row[i], i == 0, plan->pressures);
         }
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 /* --- size and number of cells --------------------------------------------------------- */

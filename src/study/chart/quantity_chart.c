@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "base/number.h"
+#include "base/sheet.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/params.h"
@@ -30,7 +31,6 @@
 #include "study/card/card.h"
 #include "study/compact/cells.h"
 #include "study/compact/compact.h"
-#include "study/compact/study_text.h"
 #include "study/strength/strength.h"
 #include "study/yield/yield.h"
 #include "study/yield/yield_surface.h"
@@ -592,19 +592,19 @@ static const struct gb_quantity_study *study_of(GKeyFile *question)
 static bool answer(const struct gb_quantity_study *study, const double *value,
                    double cpu_s, bool failed, const char *path, struct gb_error *err)
 {
-    GString *text = g_string_new("cpu_s,failed");
+    struct gb_sheet *sheet = gb_sheet_new();
     double number[2 + GB_QUANTITY_VALUES] = {cpu_s, failed};
     size_t count = 2;
+    gb_sheet_columns(sheet, "%.8g", "cpu_s,failed");
     for (const struct gb_quantity *row = quantities; row->name != NULL; row++) {
         if (row->study == study) {
-            g_string_append_printf(text, ",%s", row->name);
+            gb_sheet_columns(sheet, "%.8g", row->name);
             number[count++] = value[row->index];
         }
     }
-    g_string_append_c(text, '\n');
-    gb_study_text_numbers(text, number, count);
-    const bool good = gb_cells_answer(path, ".csv", text, err);
-    g_string_free(text, TRUE);
+    gb_sheet_numbers(sheet, number, count);
+    const bool good = gb_cells_table(path, ".csv", sheet, err);
+    gb_sheet_free(sheet);
     return good;
 }
 
@@ -1163,23 +1163,23 @@ GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
 {
     const struct gb_quantity_study *study = table->quantity->study;
     const int axes = gb_quantity_chart_axes(study);
-    GString *text = g_string_new("# greenbody " GB_VERSION "\n");
-    gb_study_text_comment(text, comment);
-    g_string_append(text, "quantity,unit");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, "greenbody " GB_VERSION);
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(sheet, "%s", "quantity,unit");
     for (int a = 0; a < axes; a++) {
-        g_string_append_printf(text, ",%s", quantities_column(&study->axis[a]));
+        gb_sheet_columns(sheet, "%.8g", quantities_column(&study->axis[a]));
     }
-    g_string_append(text,
-                    ",reference,default,seeds,failed,cpu_s,cost,value,scatter,error,"
-                    "error_se,error_95,bound,half_interval,noise_limited,front,"
-                    "chosen\n");
+    gb_sheet_columns(sheet, "%.8g",
+                     "reference,default,seeds,failed,cpu_s,cost,value,scatter,error,"
+                     "error_se,error_95,bound,half_interval,noise_limited,front,chosen");
     for (guint i = 0; i < table->row->len; i++) {
         const struct gb_quantity_result *row = gb_quantity_chart_table_at(table, i);
         if (row->seeds == 0) {
             continue;
         }
-        g_string_append_printf(text, "%s,%s,", table->quantity->name,
-                               table->quantity->unit);
+        gb_sheet_text(sheet, table->quantity->name);
+        gb_sheet_text(sheet, table->quantity->unit);
         const double number[] = {i == 0,
                                  i == 1,
                                  row->seeds,
@@ -1196,11 +1196,10 @@ GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
                                  row->noise_limited,
                                  row->front,
                                  row->chosen};
-        gb_study_text_cells(text, row->setting.value, (size_t)axes);
-        g_string_append_c(text, ',');
-        gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
+        gb_sheet_numbers(sheet, row->setting.value, (size_t)axes);
+        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 static void add_row(GString *text, const struct gb_quantity_table *table, guint i)

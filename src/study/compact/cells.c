@@ -366,3 +366,12 @@ bool gb_cells_answer(const char *path, const char *ending, const GString *text,
     g_free(file);
     return good;
 }
+
+bool gb_cells_table(const char *path, const char *ending, const struct gb_sheet *sheet,
+                    struct gb_error *err)
+{
+    GString *text = gb_sheet_print(sheet, GB_SHEET_CSV);
+    const bool good = gb_cells_answer(path, ending, text, err);
+    g_string_free(text, TRUE);
+    return good;
+}

@@ -5,33 +5,6 @@
 #include "base/number.h"
 #include "io/text_file.h"
 
-void gb_study_text_comment(GString *text, const char *comment)
-{
-    char **lines = g_strsplit(comment, "\n", -1);
-    for (size_t i = 0; lines[i] != NULL; i++) {
-        g_string_append_printf(text, "# %s\n", lines[i]);
-    }
-    g_strfreev(lines);
-}
-
-void gb_study_text_cells(GString *text, const double *number, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (i > 0) {
-            g_string_append_c(text, ',');
-        }
-        if (isfinite(number[i])) {
-            g_string_append_printf(text, "%.8g", number[i]);
-        }
-    }
-}
-
-void gb_study_text_numbers(GString *text, const double *number, size_t count)
-{
-    gb_study_text_cells(text, number, count);
-    g_string_append_c(text, '\n');
-}
-
 void gb_study_text_value(GString *text, const char *head,
                          const struct gb_fit_value *value, double factor)
 {
@@ -43,6 +16,15 @@ void gb_study_text_value(GString *text, const char *head,
     }
     char buffer[GB_NUMBER_ERROR_MAX];
     g_string_append(text, gb_number_error(number, error, 2, " \xc2\xb1 ", buffer));
+}
+
+void gb_study_text_mean(struct gb_sheet *sheet, const struct gb_fit_value *value,
+                        double factor)
+{
+    GString *text = g_string_new(NULL);
+    gb_study_text_value(text, "", value, factor);
+    gb_sheet_text(sheet, text->str);
+    g_string_free(text, TRUE);
 }
 
 void gb_study_text_interval(GString *text, const char *head, const char *format,

@@ -5,19 +5,18 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/sheet.h"
 #include "greenbody/status.h"
 #include "measure/fit/fit.h"
 
 /* Tables and pages of the studies of compacts. */
 
-/* '#' in front of every line. */
-void gb_study_text_comment(GString *text, const char *comment);
-/* Numbers separated by commas, empty where not finite; and the same with the end of line. */
-void gb_study_text_cells(GString *text, const double *number, size_t count);
-void gb_study_text_numbers(GString *text, const double *number, size_t count);
 /* "12.3 +- 0.4" after a head; "-" where there is no value. */
 void gb_study_text_value(GString *text, const char *head,
                          const struct gb_fit_value *value, double factor);
+/* The same as a cell. */
+void gb_study_text_mean(struct gb_sheet *sheet, const struct gb_fit_value *value,
+                        double factor);
 
 /* "12.3 (11 to 14)" after a head, by a format for each number; "-" for those that are not
  * finite. */

@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/read_file.h"
+#include "base/sheet.h"
 #include "base/units.h"
 #include "greenbody/status.h"
 #include "io/lab/lab_grid.h"
@@ -628,51 +629,39 @@ GString *gb_papers_text(const struct gb_papers_results *results,
     return text;
 }
 
-static void add_cell(GString *text, const char *cell)
-{
-    const bool quoted = strpbrk(cell, ",\"\n") != NULL;
-    char **parts = g_strsplit(cell, "\"", -1);
-    char *joined = g_strjoinv("\"\"", parts);
-    g_string_append_printf(text, quoted ? "\"%s\"," : "%s,", joined);
-    g_free(joined);
-    g_strfreev(parts);
-}
-
-static void add_value(GString *text, double value)
-{
-    char buffer[GB_NUMBER_MAX];
-    g_string_append_printf(text, "%s,",
-                           isfinite(value) ? gb_number_write(value, buffer) : "");
-}
-
 GString *gb_papers_table(const struct gb_papers_results *results)
 {
-    GString *text = g_string_new("id,paper,item,quantity,condition,comparison,here,"
-                                 "here_error,cells,relation,printed,printed_error,unit,"
-                                 "difference,difference_error,verdict,reason\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%s", "id,paper,item,quantity,condition,comparison");
+    gb_sheet_columns(sheet, "", "here,here_error,cells");
+    gb_sheet_columns(sheet, "%s", "relation,printed");
+    gb_sheet_columns(sheet, "", "printed_error");
+    gb_sheet_columns(sheet, "%s", "unit");
+    gb_sheet_columns(sheet, "", "difference,difference_error");
+    gb_sheet_columns(sheet, "%s", "verdict,reason");
     for (size_t k = 0; k < results->count; k++) {
         const struct gb_papers_result *result = &results->result[k];
         const struct gb_papers_printed *printed = result->printed;
-        const char *label = result->comparison->label, *why = result->comparison->why;
+        const char relation[] = {"=~<"[printed->relation], '\0'};
         char *verdict = gb_papers_verdict_text(&result->verdict);
-        const char *const words[] = {printed->id,        printed->paper,
-                                     printed->item,      printed->quantity,
-                                     printed->condition, label != NULL ? label : ""};
-        for (size_t w = 0; w < G_N_ELEMENTS(words); w++) {
-            add_cell(text, words[w]);
-        }
-        add_value(text, result->here.value);
-        add_value(text, result->here.error);
-        g_string_append_printf(text, "%zu,%c,%s,", result->here.cells,
-                               "=~<"[printed->relation], printed -> digits);
-        add_value(text, printed->error);
-        add_cell(text, printed->unit);
-        add_value(text, result->verdict.difference);
-        add_value(text, result->verdict.error);
-        add_cell(text, verdict);
-        add_cell(text, why != NULL ? why : "");
-        text->str[text->len - 1] = '\n';
+        gb_sheet_text(sheet, printed->id);
+        gb_sheet_text(sheet, printed->paper);
+        gb_sheet_text(sheet, printed->item);
+        gb_sheet_text(sheet, printed->quantity);
+        gb_sheet_text(sheet, printed->condition);
+        gb_sheet_text(sheet, result->comparison->label);
+        gb_sheet_number(sheet, result->here.value);
+        gb_sheet_number(sheet, result->here.error);
+        gb_sheet_whole(sheet, result->here.cells);
+        gb_sheet_text(sheet, relation);
+        gb_sheet_text(sheet, printed->digits);
+        gb_sheet_number(sheet, printed->error);
+        gb_sheet_text(sheet, printed->unit);
+        gb_sheet_number(sheet, result->verdict.difference);
+        gb_sheet_number(sheet, result->verdict.error);
+        gb_sheet_text(sheet, verdict);
+        gb_sheet_text(sheet, result->comparison->why);
         g_free(verdict);
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
+#include "base/sheet.h"
 #include "many/sweep/param_sweep.h"
 #include "measure/fit/sobol_indices.h"
 
@@ -37,7 +38,7 @@ static bool open_work(struct work *work, struct gb_error *err)
     }
     for (size_t p = 0; p < ensemble->points; p++) {
         gb_param_sweep_readings_init(&work->reading[p], &work->sweep->ensemble, p,
-                               &work->sweep->at);
+                                     &work->sweep->at);
         for (size_t k = 0; k < axes->count; k++) {
             work->at[p * axes->count + k] = 2.0 * axes->axis[k].share[p] - 1.0;
         }
@@ -62,7 +63,7 @@ static bool collect(const struct work *work, const struct gb_sensitivity_item *o
     double low = INFINITY, high = -INFINITY;
     for (size_t p = 0; p < ensemble->points; p++) {
         const double *from = gb_param_sweep_readings_at(&work->reading[p], of->branch,
-                                                  of->pressure, of->quantity);
+                                                        of->pressure, of->quantity);
         for (size_t r = 0; r < ensemble->replicas; r++) {
             const double value = r < work->reading[p].runs ? from[r] : (double)NAN;
             work->value[p * ensemble->replicas + r] = value;
@@ -139,58 +140,56 @@ void gb_sensitivity_finish(struct gb_sensitivity *sensitivity)
 
 /* --- table and text ------------------------------------------------------------------- */
 
-static void add_number(GString *text, double value)
-{
-    g_string_append_c(text, ',');
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.6g", value);
-    }
-}
-
 static void add_key(GString *text, const struct gb_param_sweep *sweep, size_t key)
 {
     const struct gb_field *field = sweep->axes.axis[key].field;
     g_string_append_printf(text, "%s.%s", field->group, field->key);
 }
 
-static void add_rows(GString *text, const struct gb_sensitivity_item *of,
+static void add_rows(struct gb_sheet *sheet, const struct gb_sensitivity_item *of,
                      const struct gb_param_sweep *sweep)
 {
     const struct gb_sobol_indices *indices = &of->indices;
     for (size_t k = 0; k < sweep->axes.count; k++) {
-        g_string_append_printf(text, "%s,%.12g,%s,", gb_param_sweep_branch(of->branch),
-                               sweep->at.pa[of->pressure] / 1e6,
-                               gb_reading_name((enum gb_reading_quantity)of->quantity));
-        add_key(text, sweep, k);
         const double number[] = {indices->first[k], indices->first_error[k],
                                  indices->total[k], indices->total_error[k],
                                  indices->mean,     indices->range_sd,
                                  indices->seed_sd,  indices->unexplained};
-        for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
-            add_number(text, number[i]);
-        }
-        g_string_append_c(text, '\n');
+        GString *key = g_string_new(NULL);
+        add_key(key, sweep, k);
+        gb_sheet_text(sheet, gb_param_sweep_branch(of->branch));
+        gb_sheet_number(sheet, sweep->at.pa[of->pressure] / 1e6);
+        gb_sheet_text(sheet, gb_reading_name((enum gb_reading_quantity)of->quantity));
+        gb_sheet_text(sheet, key->str);
+        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+        g_string_free(key, TRUE);
     }
 }
 
 GString *gb_sensitivity_table(const struct gb_sensitivity *sensitivity,
                               const struct gb_param_sweep *sweep)
 {
-    GString *text = g_string_new(
-        "# greenbody " GB_VERSION "\n"
-        "# shares of the variance of a figure over the ranges of the keys, by a key alone "
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(
+        sheet,
+        "greenbody " GB_VERSION "\n"
+        "shares of the variance of a figure over the ranges of the keys, by a key alone "
         "(first_order)\n"
-        "# and with its products (total), without the scatter of cells; _error: standard "
+        "and with its products (total), without the scatter of cells; _error: standard "
         "errors; range_sd:\n"
-        "# standard deviation by the keys; cell_sd: between cells at one point; "
+        "standard deviation by the keys; cell_sd: between cells at one point; "
         "unexplained: share that\n"
-        "# a quadratic of the keys lacks\n"
-        "branch,p_MPa,quantity,key,first_order,first_order_error,total,total_error,mean,"
-        "range_sd,cell_sd,unexplained\n");
+        "a quadratic of the keys lacks");
+    gb_sheet_columns(sheet, "%s", "branch");
+    gb_sheet_columns(sheet, "%.12g", "p_MPa");
+    gb_sheet_columns(sheet, "%s", "quantity,key");
+    gb_sheet_columns(sheet, "%.6g",
+                     "first_order,first_order_error,total,total_error,mean,range_sd,"
+                     "cell_sd,unexplained");
     for (size_t i = 0; i < sensitivity->count; i++) {
-        add_rows(text, &sensitivity->item[i], sweep);
+        add_rows(sheet, &sensitivity->item[i], sweep);
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 static const struct gb_sensitivity_item *

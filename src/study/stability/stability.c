@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sheet.h"
 #include "base/vec.h"
 #include "greenbody/params.h"
 #include "law/critical_step.h"
@@ -758,27 +759,33 @@ bool gb_stability_stable(const struct gb_stability_row *row)
     return row->used <= row->measured;
 }
 
-GString *gb_stability_table(const char *comment)
+struct gb_sheet *gb_stability_table(const char *comment)
 {
-    GString *csv = g_string_new(comment);
-    g_string_append(csv,
-                    "# longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
-                    "ratio: measured / theory; used: what the run takes; margin: "
-                    "measured / used\n"
-                    "method,p_MPa,density,damping,theory,measured,ratio,used,margin,"
-                    "stable,in_use\n");
-    return csv;
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_comment(sheet,
+                     "longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
+                     "ratio: measured / theory; used: what the run takes; margin: "
+                     "measured / used");
+    gb_sheet_columns(sheet, "%s", "method");
+    gb_sheet_columns(sheet, "%.8g",
+                     "p_MPa,density,damping,theory,measured,ratio,used,margin");
+    gb_sheet_columns(sheet, "%.0f", "stable,in_use");
+    return sheet;
 }
 
-void gb_stability_add(GString *csv, const struct gb_stability_row *row)
+void gb_stability_add(struct gb_sheet *sheet, const struct gb_stability_row *row)
 {
-    const double number[] = {1e-6 * row->p_pa, row->density,
-                             row->damping,     row->theory,
-                             row->measured,    row->measured / row->theory,
-                             row->used,        row->measured / row->used};
-    g_string_append(csv, row->method);
-    for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
-        g_string_append_printf(csv, ",%.8g", number[i]);
-    }
-    g_string_append_printf(csv, ",%d,%d\n", gb_stability_stable(row), row->in_use);
+    const double number[] = {1e-6 * row->p_pa,
+                             row->density,
+                             row->damping,
+                             row->theory,
+                             row->measured,
+                             row->measured / row->theory,
+                             row->used,
+                             row->measured / row->used,
+                             gb_stability_stable(row),
+                             row->in_use};
+    gb_sheet_text(sheet, row->method);
+    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
 }

@@ -4,6 +4,7 @@
 #include <glib.h>
 #include <stdbool.h>
 
+#include "base/sheet.h"
 #include "greenbody/params.h"
 #include "pack/cell/world.h"
 #include "scene/field/keep_points.h"
@@ -97,9 +98,8 @@ bool gb_stability_run(const struct gb_params *params, const struct gb_keep_point
 /* Whether the method is stable with the step that it takes. */
 bool gb_stability_stable(const struct gb_stability_row *row);
 
-/* A header row, for rows of gb_stability_add; comment: lines put in front, with '#'.
- * g_string_free. */
-GString *gb_stability_table(const char *comment);
-void gb_stability_add(GString *csv, const struct gb_stability_row *row);
+/* A table, for rows of gb_stability_add; comment: lines above it.  gb_sheet_free. */
+struct gb_sheet *gb_stability_table(const char *comment);
+void gb_stability_add(struct gb_sheet *sheet, const struct gb_stability_row *row);
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/sheet.h"
 #include "base/table.h"
 #include "many/pool.h"
 #include "measure/yield_point.h"
@@ -120,16 +121,8 @@ struct cell {
     struct gb_compact top, inside;
     struct gb_compact_elastic elastic;
     struct gb_yield_point chosen[GB_YIELD_DIRECTIONS_MAX]; /* at the chosen offset */
-    GString *points, *paths;
+    struct gb_sheet *points, *paths;
 };
-
-static void add_number(GString *text, double value)
-{
-    g_string_append_c(text, ',');
-    if (isfinite(value)) {
-        g_string_append_printf(text, "%.10g", value);
-    }
-}
 
 /* Index of the direction and of the offset, state of the compact, the point. */
 static void add_point(struct cell *cell, int direction, int offset,
@@ -146,29 +139,27 @@ static void add_point(struct cell *cell, int direction, int offset,
         cell->chosen[direction].density = cell->top.point.density;
         cell->chosen[direction].direction = direction_of(&cell->options, direction);
     }
-    g_string_append_printf(cell->points, "%d,%d", direction, offset);
     const double number[] = {
-        cell->top.point.density, top.p,           top.q, point.p_pa, point.q_pa,
-        point.flow_volume,       point.flow_shear};
-    for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
-        add_number(cell->points, number[i]);
-    }
-    g_string_append_c(cell->points, '\n');
+        direction,  offset,     cell->top.point.density, top.p,           top.q,
+        point.p_pa, point.q_pa, point.flow_volume,       point.flow_shear};
+    gb_sheet_numbers(cell->points, number, G_N_ELEMENTS(number));
 }
 
 static void add_path(struct cell *cell, int direction,
                      const struct gb_compact_probe *probe)
 {
     if (probe->outcome == GB_COMPACT_STOPPED) {
-        g_string_append_printf(cell->paths, "# direction %d stopped: %s\n", direction,
-                               probe->why.text);
+        char *note =
+            g_strdup_printf("direction %d stopped: %s", direction, probe->why.text);
+        gb_sheet_note(cell->paths, note);
+        g_free(note);
     }
     for (guint i = 0; i < probe->state->len; i++) {
         const struct gb_compact_state *state =
             &g_array_index(probe->state, struct gb_compact_state, i);
-        g_string_append_printf(cell->paths, "%d,%.9g,%.9g,%.9g,%.9g\n", direction,
-                               1e-6 * state->p, 1e-6 * state->q, state->volume,
-                               state->shear);
+        const double number[] = {direction, 1e-6 * state->p, 1e-6 * state->q,
+                                 state->volume, state->shear};
+        gb_sheet_numbers(cell->paths, number, G_N_ELEMENTS(number));
     }
 }
 
@@ -195,9 +186,10 @@ static bool probe_one(struct cell *cell, int direction, struct gb_error *err)
 
 static bool probe_all(struct cell *cell, struct gb_error *err)
 {
-    g_string_append(cell->points, "direction,offset,density,top_p_Pa,top_q_Pa,p_Pa,q_Pa,"
-                                  "flow_volume,flow_shear\n");
-    g_string_append(cell->paths, "direction,p_MPa,q_MPa,volume,shear\n");
+    gb_sheet_columns(cell->points, "%.10g",
+                     "direction,offset,density,top_p_Pa,top_q_Pa,p_Pa,q_Pa,flow_volume,"
+                     "flow_shear");
+    gb_sheet_columns(cell->paths, "%.9g", "direction,p_MPa,q_MPa,volume,shear");
     for (int i = 0; i < cell->options.directions; i++) {
         if (!probe_one(cell, i, err)) {
             return false;
@@ -222,17 +214,16 @@ static bool measure(struct cell *cell, const struct gb_params *params,
 
 static void cell_init(struct cell *cell, const struct gb_pool_callbacks *callbacks)
 {
-    *cell = (struct cell){.callbacks = callbacks,
-                          .points = g_string_new(NULL),
-                          .paths = g_string_new(NULL)};
+    *cell = (struct cell){
+        .callbacks = callbacks, .points = gb_sheet_new(), .paths = gb_sheet_new()};
 }
 
 static void cell_finish(struct cell *cell)
 {
     gb_compact_finish(&cell->inside);
     gb_compact_finish(&cell->top);
-    g_string_free(cell->points, TRUE);
-    g_string_free(cell->paths, TRUE);
+    gb_sheet_free(cell->points);
+    gb_sheet_free(cell->paths);
 }
 
 bool gb_yield_measure(struct gb_yield_point point[GB_YIELD_DIRECTIONS_MAX],
@@ -274,8 +265,8 @@ static bool yield_cell_work(const struct gb_params *params, const char *path,
     yield_options_read(&cell.options, &cell.mark, question);
     g_key_file_free(question);
     const bool good = measure(&cell, params, err) &&
-                      gb_cells_answer(path, ".paths.csv", cell.paths, err) &&
-                      gb_cells_answer(path, ".csv", cell.points, err);
+                      gb_cells_table(path, ".paths.csv", cell.paths, err) &&
+                      gb_cells_table(path, ".csv", cell.points, err);
     cell_finish(&cell);
     gb_lock_release(&lock);
     return good;
@@ -514,13 +505,8 @@ const struct gb_yield_surface *gb_yield_study_surface(const struct gb_yield_stud
 
 /* The tables and the page of a study; stresses in MPa, angles in degrees. */
 
-static void begin(GString *text, const char *comment, const char *head)
-{
-    gb_study_text_comment(text, comment);
-    g_string_append(text, head);
-}
-
-static void add_direction(GString *text, const struct gb_yield_surface *surface, int d)
+static void add_direction(struct gb_sheet *sheet, const struct gb_yield_surface *surface,
+                          int d)
 {
     const struct gb_yield_surface_direction *direction = &surface->direction[d];
     const struct gb_yield_point *mean = &direction->mean;
@@ -538,33 +524,36 @@ static void add_direction(GString *text, const struct gb_yield_surface *surface,
                              direction->angle.error,
                              direction->dilatancy.value,
                              direction->dilatancy.error};
-    gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
+    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
 }
 
 GString *gb_yield_points(const struct gb_yield_study *study, const char *comment)
 {
-    GString *text = g_string_new(NULL);
-    begin(text, comment,
-          "density,offset_percent,direction_deg,cells,p_MPa,p_error_MPa,q_MPa,"
-          "q_error_MPa,flow_volume,flow_shear,angle_deg,angle_error_deg,dilatancy,"
-          "dilatancy_error\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(
+        sheet, "%.8g",
+        "density,offset_percent,direction_deg,cells,p_MPa,p_error_MPa,q_MPa,"
+        "q_error_MPa,flow_volume,flow_shear,angle_deg,angle_error_deg,dilatancy,"
+        "dilatancy_error");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         for (int d = 0; d < surface->directions; d++) {
             if (surface->direction[d].cells > 0) {
-                add_direction(text, surface, d);
+                add_direction(sheet, surface, d);
             }
         }
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 /* yield_cells.csv: the points of every cell at the chosen offset. */
 static GString *yield_files_cells(const struct gb_yield_study *study, const char *comment)
 {
-    GString *text = g_string_new(NULL);
-    begin(text, comment,
-          "density,cell,direction_deg,p_MPa,q_MPa,flow_volume,flow_shear\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(sheet, "%.8g",
+                     "density,cell,direction_deg,p_MPa,q_MPa,flow_volume,flow_shear");
     for (guint i = 0; i < study->point->len; i++) {
         const struct gb_yield_point *point =
             &g_array_index(study->point, struct gb_yield_point, i);
@@ -572,40 +561,41 @@ static GString *yield_files_cells(const struct gb_yield_study *study, const char
             point->density,     point->replica,     point->direction * 180.0 / G_PI,
             1e-6 * point->p_pa, 1e-6 * point->q_pa, point->flow_volume,
             point->flow_shear};
-        gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
+        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
-static void add_quantity(GString *text, const struct gb_yield_surface *surface,
+static void add_quantity(struct gb_sheet *sheet, const struct gb_yield_surface *surface,
                          const char *name, const struct gb_fit_value *value,
                          const char *unit, double factor)
 {
-    const double number[] = {factor * value->value, factor * value->error,
-                             factor * value->low, factor * value->high};
-    g_string_append_printf(text, "%s,", name);
-    const double head[] = {surface->density.value, 100.0 * surface->offset};
-    gb_study_text_cells(text, head, G_N_ELEMENTS(head));
-    g_string_append_c(text, ',');
-    gb_study_text_cells(text, number, G_N_ELEMENTS(number));
-    g_string_append_printf(text, ",%s\n", unit);
+    const double number[] = {surface->density.value, 100.0 * surface->offset,
+                             factor * value->value,  factor * value->error,
+                             factor * value->low,    factor * value->high};
+    gb_sheet_text(sheet, name);
+    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+    gb_sheet_text(sheet, unit);
 }
 
 GString *gb_yield_fit(const struct gb_yield_study *study, const char *comment)
 {
-    GString *text = g_string_new(NULL);
-    begin(text, comment, "quantity,density,offset_percent,value,error,low,high,unit\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_comment(sheet, comment);
+    gb_sheet_columns(sheet, "%s", "quantity");
+    gb_sheet_columns(sheet, "%.8g", "density,offset_percent,value,error,low,high");
+    gb_sheet_columns(sheet, "%s", "unit");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
-        add_quantity(text, surface, "compact_p", &surface->top_p, "MPa", 1e-6);
-        add_quantity(text, surface, "compact_q", &surface->top_q, "MPa", 1e-6);
+        add_quantity(sheet, surface, "compact_p", &surface->top_p, "MPa", 1e-6);
+        add_quantity(sheet, surface, "compact_q", &surface->top_q, "MPa", 1e-6);
         for (int k = 0; k < GB_YIELD_QUANTITIES; k++) {
             const struct gb_yield_surface_row *row = &gb_yield_surface_rows[k];
-            add_quantity(text, surface, row->name, &surface->quantity[k], row->unit,
+            add_quantity(sheet, surface, row->name, &surface->quantity[k], row->unit,
                          row->factor);
         }
     }
-    return text;
+    return gb_sheet_end(sheet, GB_SHEET_CSV);
 }
 
 /* --- the page ---------------------------------------------------------------------- */
@@ -616,26 +606,36 @@ static const struct gb_fit_value *quantity(const struct gb_yield_surface *surfac
     return &surface->quantity[which];
 }
 
+static void add_sheet(GString *text, struct gb_sheet *sheet)
+{
+    GString *rows = gb_sheet_end(sheet, GB_SHEET_MARKDOWN);
+    g_string_append(text, rows->str);
+    g_string_free(rows, TRUE);
+}
+
 static void add_surfaces(GString *text, const struct gb_yield_study *study)
 {
-    g_string_append(text,
-                    "\n## Ellipses\n\n"
-                    "| density | pressed to p (MPa) | offset (%) | centre p (MPa) | "
-                    "centre q | half axis p | half axis q | misfit |\n"
-                    "|---|---|---|---|---|---|---|---|\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%.4f", "density");
+    gb_sheet_columns(sheet, "%s", "pressed to p (MPa)");
+    gb_sheet_columns(sheet, "%g", "offset (%)");
+    gb_sheet_columns(sheet, "%s", "centre p (MPa),centre q,half axis p,half axis q");
+    gb_sheet_columns(sheet, "%s", "misfit");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         char number[GB_NUMBER_MAX];
-        g_string_append_printf(text, "| %.4f", surface->density.value);
-        gb_study_text_value(text, " | ", &surface->top_p, 1e-6);
-        g_string_append_printf(text, " | %g", 100.0 * surface->offset);
+        gb_sheet_number(sheet, surface->density.value);
+        gb_study_text_mean(sheet, &surface->top_p, 1e-6);
+        gb_sheet_number(sheet, 100.0 * surface->offset);
         for (int k = GB_YIELD_CENTRE_P; k <= GB_YIELD_HALF_Q; k++) {
-            gb_study_text_value(text, " | ", &surface->quantity[k], 1e-6);
+            gb_study_text_mean(sheet, &surface->quantity[k], 1e-6);
         }
-        g_string_append_printf(
-            text, " | %s |\n",
+        gb_sheet_text(
+            sheet,
             gb_number_shown("%.3f", quantity(surface, GB_YIELD_MISFIT)->value, number));
     }
+    g_string_append(text, "\n## Ellipses\n\n");
+    add_sheet(text, sheet);
 }
 
 /* Whether the interval holds zero. */
@@ -697,10 +697,10 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
 
 static void add_directions(GString *text, const struct gb_yield_study *study)
 {
-    g_string_append(text,
-                    "\n## Points at the chosen offset\n\n"
-                    "| density | direction (deg) | cells | p (MPa) | q (MPa) | angle "
-                    "to normal (deg) | dilatancy |\n|---|---|---|---|---|---|---|\n");
+    struct gb_sheet *sheet = gb_sheet_new();
+    gb_sheet_columns(sheet, "%.4f", "density");
+    gb_sheet_columns(sheet, "%.0f", "direction (deg),cells");
+    gb_sheet_columns(sheet, "%s", "p (MPa),q (MPa),angle to normal (deg),dilatancy");
     for (int m = 0; m < study->options.marks.count; m++) {
         const struct gb_yield_surface *surface =
             gb_yield_study_surface(study, m, GB_YIELD_OFFSET_CHOSEN);
@@ -710,16 +710,17 @@ static void add_directions(GString *text, const struct gb_yield_study *study)
                                            .error = at->mean.p_error_pa};
             const struct gb_fit_value q = {.value = at->mean.q_pa,
                                            .error = at->mean.q_error_pa};
-            g_string_append_printf(text, "| %.4f | %.0f | %d", surface->density.value,
-                                   direction_of(&study->options, d) * 180.0 / G_PI,
-                                   at->cells);
-            gb_study_text_value(text, " | ", &p, 1e-6);
-            gb_study_text_value(text, " | ", &q, 1e-6);
-            gb_study_text_value(text, " | ", &at->angle, 1.0);
-            gb_study_text_value(text, " | ", &at->dilatancy, 1.0);
-            g_string_append(text, " |\n");
+            gb_sheet_number(sheet, surface->density.value);
+            gb_sheet_number(sheet, direction_of(&study->options, d) * 180.0 / G_PI);
+            gb_sheet_number(sheet, at->cells);
+            gb_study_text_mean(sheet, &p, 1e-6);
+            gb_study_text_mean(sheet, &q, 1e-6);
+            gb_study_text_mean(sheet, &at->angle, 1.0);
+            gb_study_text_mean(sheet, &at->dilatancy, 1.0);
         }
     }
+    g_string_append(text, "\n## Points at the chosen offset\n\n");
+    add_sheet(text, sheet);
 }
 
 /* The page: what was done, the fitted surfaces, and the three statements on each compact:
