@@ -118,7 +118,7 @@ static bool find(const struct gb_contact_law_request *request,
     }
     rows->law = gb_law_table_find(request->law);
     if (!rows->law) {
-        gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s", request->law,
+        gb_error_set(err, GB_ERR_INPUT, "law %.40s: expected %s", request->law,
                      names->str);
     }
     g_string_free(names, TRUE);
@@ -128,7 +128,7 @@ static bool find(const struct gb_contact_law_request *request,
     rows->lattice = request->lattice ? gb_law_table_find_lattice(request->lattice) : NULL;
     const bool needed = strcmp(request->law, "lattice") == 0;
     return (needed ? rows->lattice != NULL : request->lattice == NULL) ||
-           gb_error_set(err, GB_ERR_INPUT, "law %s: lattice %s: accepted %s",
+           gb_error_set(err, GB_ERR_INPUT, "law %s: lattice %s: expected %s",
                         request->law, request->lattice ? request->lattice : "missing",
                         needed ? "sc, fcc, bcc or diamond" : "none");
 }

@@ -48,7 +48,7 @@ static bool read_marks(const struct gb_compact_options *options,
     struct gb_error why = {0};
     if (options->at != NULL && options->density != NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--at and --density: accepted one of them");
+                            "--at and --density: expected one of them");
     }
     if (options->at == NULL && options->density == NULL) {
         return true;

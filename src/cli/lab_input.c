@@ -151,7 +151,7 @@ static bool keep_series(struct gb_table *table, const char *series, struct gb_er
         gb_table_keep(table, series);
     } else {
         gb_error_set(err, GB_ERR_INPUT,
-                     "%.200s: --series %.80s: accepted one series of %s",
+                     "%.200s: --series %.80s: expected one series of %s",
                      gb_table_path(table), series, known->str);
     }
     g_string_free(known, TRUE);

@@ -163,7 +163,7 @@ static bool find_name(char **words, const char **name, struct gb_error *err)
         }
         if (*name != NULL) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%.80s: accepted one preset, %.80s is given already",
+                                "%.80s: expected one preset, %.80s is given already",
                                 words[i], *name);
         }
         *name = words[i];
@@ -276,7 +276,7 @@ const char *gb_options_directory(char **words, const char *command, struct gb_er
     if (g_strv_length(words) == 1) {
         return words[0];
     }
-    gb_error_set(err, GB_ERR_INPUT, "%s: accepted one run directory", command);
+    gb_error_set(err, GB_ERR_INPUT, "%s: expected one run directory", command);
     return NULL;
 }
 

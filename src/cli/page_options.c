@@ -8,16 +8,16 @@ bool gb_page_options_take(const struct gb_page_options *options, int *width, int
     struct gb_image_print print;
     if (options->width == NULL) {
         return (options->per_inch == 0 ||
-                gb_error_set(err, GB_ERR_INPUT, "--dpi: accepted with --width")) &&
+                gb_error_set(err, GB_ERR_INPUT, "--dpi: expected with --width")) &&
                (options->size == NULL ||
                 gb_image_parse_size(options->size, width, height, err));
     }
     if (options->size != NULL) {
-        return gb_error_set(err, GB_ERR_INPUT, "--size, --width: accepted one of them");
+        return gb_error_set(err, GB_ERR_INPUT, "--size, --width: expected one of them");
     }
     if (!gb_image_parse_print(options->width,
-                             options->per_inch != 0 ? options->per_inch : 300, &print,
-                             err)) {
+                              options->per_inch != 0 ? options->per_inch : 300, &print,
+                              err)) {
         return false;
     }
     *width = print.width;
@@ -42,8 +42,8 @@ char *gb_page_options_journals(void)
 {
     GString *text = g_string_new("Columns of journals for --width: one, one and a half, "
                                  "two (sources in docs/figures.md):\n");
-    for (const struct gb_image_journal *row = gb_image_journals;
-         row->name != NULL; row++) {
+    for (const struct gb_image_journal *row = gb_image_journals; row->name != NULL;
+         row++) {
         append_column(text, row, "", row->single_mm);
         append_column(text, row, "-1.5", row->middle_mm);
         append_column(text, row, "-2", row->double_mm);

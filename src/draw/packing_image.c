@@ -233,7 +233,7 @@ static bool find_reach(struct gb_state *const *states, size_t count, double *rea
         if (!(rose.mean > 0.0)) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "rose: the mean normal force of a packing is tensile; "
-                                "accepted a packing under pressure");
+                                "expected a packing under pressure");
         }
         *reach = fmax(*reach, gb_rose_reach(&rose));
     }

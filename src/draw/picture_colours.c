@@ -116,11 +116,11 @@ static bool fit_sorted(struct gb_picture_style_scale *scale, const double *sorte
         fit_data(scale, sorted + first, count - first, start);
     } else {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--log: no value above 0; accepted with values above 0");
+                            "--log: no value above 0; expected with values above 0");
     }
     if (scale->log && !(scale->low > 0.0)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--range: accepted from above 0 with --log");
+                            "--range: expected from above 0 with --log");
     }
     const double rounding = one_value * (scale->high - scale->low);
     scale->below = rounding > 0.0 && scale->low - sorted[0] > rounding;
@@ -170,7 +170,7 @@ static bool fit_whole(struct gb_picture_style_scale *scale, const int32_t *numbe
     scale->high = GB_PALETTE_CONTACTS;
     if (request->log) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--log: whole numbers; accepted with --color pressure, size "
+                            "--log: whole numbers; expected with --color pressure, size "
                             "or displacement");
     }
     if (is_ranged(request)) {
@@ -320,7 +320,7 @@ static bool check_same_run(const struct gb_state *state, const struct gb_state *
     return (since->count == state->count && since->dimension == state->dimension &&
             since->seed == state->seed) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--since: a state of %lld particles of seed %llu; accepted an "
+                        "--since: a state of %lld particles of seed %llu; expected an "
                         "earlier state of the same run",
                         (long long)since->count, (unsigned long long)since->seed);
 }

@@ -353,7 +353,7 @@ bool gb_picture_style_parse_colour(struct gb_picture_style_request *request,
     if (row == NULL) {
         char *particles = gb_picture_colours_names(GB_PICTURE_COLOURS_PARTICLES);
         char *forces = gb_picture_colours_names(GB_PICTURE_COLOURS_FORCES);
-        gb_error_set(err, GB_ERR_INPUT, "--color %.80s: accepted %s; for forces %s", text,
+        gb_error_set(err, GB_ERR_INPUT, "--color %.80s: expected %s; for forces %s", text,
                      particles, forces);
         g_free(forces);
         g_free(particles);
@@ -377,7 +377,7 @@ bool gb_picture_style_parse_show(struct gb_picture_style_request *request,
         }
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "--show %.80s: accepted particles, forces or both", text);
+                        "--show %.80s: expected particles, forces or both", text);
 }
 
 /* "z=0.5"; *end: first character after the number. */
@@ -407,7 +407,7 @@ bool gb_picture_style_parse_slice(struct gb_picture_style_request *request,
     if (!good || *end != '\0') {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "--slice %.80s: accepted an axis, a fraction of its edge and a "
+            "--slice %.80s: expected an axis, a fraction of its edge and a "
             "thickness in diameters, as in y=0.5 or z=0.25:3d",
             text);
     }
@@ -430,7 +430,7 @@ bool gb_picture_style_parse_cut(struct gb_picture_style_request *request,
     if (!parse_plane(text, &axis, &at, &end) || *end != '\0') {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "--cut %.80s: accepted corner, or an axis and a fraction of its "
+            "--cut %.80s: expected corner, or an axis and a fraction of its "
             "edge, as in y=0.5",
             text);
     }
@@ -493,7 +493,7 @@ bool gb_picture_style_parse_range(struct gb_picture_style_request *request,
         example = examples[k].dimension == dimension ? examples[k].example : example;
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "--range %.80s: accepted LOW:HIGH, as in %s%s%s", text,
+                        "--range %.80s: expected LOW:HIGH, as in %s%s%s", text,
                         particles ? example : "", particles && forces ? ", or " : "",
                         forces ? "0:50nN for the thickest rod" : "");
 }
@@ -515,7 +515,7 @@ bool gb_picture_style_parse_colormap(struct gb_picture_style_request *request,
         return true;
     }
     char *names = gb_picture_style_parse_colormaps();
-    gb_error_set(err, GB_ERR_INPUT, "--colormap %.80s: accepted %s", text, names);
+    gb_error_set(err, GB_ERR_INPUT, "--colormap %.80s: expected %s", text, names);
     g_free(names);
     return false;
 }

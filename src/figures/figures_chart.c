@@ -213,7 +213,7 @@ static bool refuse_pressure(const struct chart_columns *chart, double wanted_pa,
     }
     if (known->len == 0) {
         gb_error_set(err, GB_ERR_INPUT,
-                     "%s: no error at a pressure; accepted a table of `greenbody chart`",
+                     "%s: no error at a pressure; expected a table of `greenbody chart`",
                      gb_table_path(chart->table));
     } else {
         gb_error_set(err, GB_ERR_INPUT, "--pressure %g MPa: the chart has %s",

@@ -575,7 +575,7 @@ static bool read_at(struct chosen *chosen, const char *at, double *wanted,
     struct gb_error why = {0};
     if (!gb_keep_points_parse(at, &points, &why) || points.count != 1) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--at %.100s: accepted one compact, as '100 MPa' or 'density "
+                            "--at %.100s: expected one compact, as '100 MPa' or 'density "
                             "= 0.5'",
                             at);
     }
@@ -617,7 +617,7 @@ static bool choose(struct chosen *chosen, const char *at, struct gb_error *err)
         found = take_value(chosen, wanted, all);
     }
     if (!found) {
-        gb_error_set(err, GB_ERR_INPUT, "%.300s: no compact of %s %g; accepted %s",
+        gb_error_set(err, GB_ERR_INPUT, "%.300s: no compact of %s %g; expected %s",
                      gb_table_path(chosen->table), curve_names[chosen->by], wanted,
                      all->len > 0 ? all->str : "none of these");
     }

@@ -25,7 +25,7 @@ static bool check_die(const struct gb_state *state, const char *figure,
 {
     return state->die_radius > 0.0 ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "%s: a periodic cell has no wall; accepted dies", figure);
+                        "%s: a periodic cell has no wall; expected dies", figure);
 }
 
 /* Density over rings of the bore and bands of the height of the powder, or of what the
@@ -357,7 +357,7 @@ static bool compute_die_section(struct gb_series *series,
     struct gb_states_set states;
     if (input->set->count > 1) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "die-section: one section shows one bed; accepted one run");
+                            "die-section: one section shows one bed; expected one run");
     }
     if (!gb_states_set_read(&states, input, err)) {
         return false;
@@ -659,7 +659,7 @@ static bool compute_die_profile_wall(struct gb_series *series,
         "wall_MPa",
         12,
         wall_profile,
-        "the state has no contacts with walls; accepted states in the die, of version "
+        "the state has no contacts with walls; expected states in the die, of version "
         "0.2.0 on"};
     return draw_profile(series, input, &profile, err);
 }
@@ -766,7 +766,7 @@ static bool compute_die_map(struct gb_series *series,
     double mean[CELLS];
     if (input->set->groups > 1) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "die-map: one map shows one scene; accepted runs that differ "
+                            "die-map: one map shows one scene; expected runs that differ "
                             "by their seed only");
     }
     if (!gb_states_set_read(&states, input, err)) {

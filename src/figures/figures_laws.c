@@ -49,7 +49,7 @@ static bool init_rod_model(struct gb_model *model, const struct gb_params *scene
         return false;
     }
     return !model->cohesionless ||
-           gb_error_set(err, GB_ERR_INPUT, "%s: accepted contact.normal = rod", figure);
+           gb_error_set(err, GB_ERR_INPUT, "%s: expected contact.normal = rod", figure);
 }
 
 /* Range of the overlap, in lengths of a bridge. */
@@ -111,7 +111,7 @@ static bool compute_contact(struct gb_series *series,
     }
     if (!model.terms.bridges) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "contact: the scene has no bridges; accepted "
+                            "contact: the scene has no bridges; expected "
                             "contact.bridge_length below 1 d");
     }
     const double length = model.bridge.length;

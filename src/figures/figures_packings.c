@@ -95,7 +95,7 @@ static bool compute_rdf(struct gb_series *series, const struct gb_figures_input 
     }
     const bool good = !gb_loading_kind_of(&input->set->run[0].params)->periodic_cell
                           ? gb_error_set(err, GB_ERR_INPUT,
-                                         "rdf: a die has walls; accepted periodic cells")
+                                         "rdf: a die has walls; expected periodic cells")
                           : fill_rdf(series, input->set, &states, err);
     gb_states_set_finish(&states);
     return good;
@@ -395,7 +395,7 @@ static bool draw_sizes(struct gb_series *series, const struct gb_figures_input *
     const bool good =
         !is_monodisperse(states.state[0]) ||
         gb_error_set(err, GB_ERR_INPUT,
-                     "sizes: all particles have one diameter; accepted runs with a "
+                     "sizes: all particles have one diameter; expected runs with a "
                      "distribution of sizes");
     if (good) {
         const struct moments moments = find_moments(&states);

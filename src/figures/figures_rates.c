@@ -334,7 +334,7 @@ static bool compute_difference(struct gb_series *series,
     const size_t reference = input->reference;
     if (set->groups < 2) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "difference: all runs have equal presets; accepted runs of "
+                            "difference: all runs have equal presets; expected runs of "
                             "two groups at least");
     }
     if (!gb_series_sample(&sample, set, "load", "density", "p_MPa", err)) {

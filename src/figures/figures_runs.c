@@ -192,7 +192,7 @@ static bool find_uniaxial(const struct gb_runset *set, size_t *group,
     }
     return gb_error_set(err, GB_ERR_INPUT,
                         "continuum: the hardening law is taken from uniaxial pressing; "
-                        "accepted runs of which one has loading.geometry = uniaxial");
+                        "expected runs of which one has loading.geometry = uniaxial");
 }
 
 /* Hardening law from the mean curve of a group where it is defined. */
@@ -600,7 +600,7 @@ static bool compute_size_effect(struct gb_series *series,
     const double mpa = input->pressure_pa > 0.0 ? input->pressure_pa / 1e6 : default_mpa;
     if (one_diameter(set)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "size-effect: all runs have one diameter; accepted runs of "
+                            "size-effect: all runs have one diameter; expected runs of "
                             "several");
     }
     gb_series_init(series, set->groups);
@@ -688,7 +688,7 @@ static const struct gb_field *find_key(const struct gb_runset *set, struct gb_er
     found = found != NULL ? found : most_values(set, true);
     if (found == NULL) {
         gb_error_set(err, GB_ERR_INPUT,
-                     "sweep: no number differs between the runs; accepted runs that "
+                     "sweep: no number differs between the runs; expected runs that "
                      "differ in a key with numbers");
     }
     return found;

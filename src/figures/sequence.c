@@ -43,7 +43,7 @@ static bool check_numbered_targets(const struct job *job, struct gb_error *err)
         good = path != NULL
                    ? check_target(path, job->sequence->force, err)
                    : gb_error_set(err, GB_ERR_INPUT,
-                                  "-o %.300s: accepted one number as in frame-%%03d.png",
+                                  "-o %.300s: expected one number as in frame-%%03d.png",
                                   job->sequence->output);
         g_free(path);
     }

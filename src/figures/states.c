@@ -139,7 +139,7 @@ static bool parse_point(const char *text, struct gb_keep_point *point,
     }
     g_strfreev(sides);
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "--at %.80s: accepted a point as in \"p=100 MPa\" or "
+                                "--at %.80s: expected a point as in \"p=100 MPa\" or "
                                 "\"density=0.5\"",
                                 text);
 }

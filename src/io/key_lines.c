@@ -40,7 +40,7 @@ static bool take_group(struct scanner *scanner, const struct piece *piece,
 {
     const ptrdiff_t length = piece->stop - piece->start;
     if (length < 3 || piece->stop[-1] != ']') {
-        return refuse(scanner, piece, "accepted [group]", err);
+        return refuse(scanner, piece, "expected [group]", err);
     }
     struct gb_key_line item = {.line = piece->line, .end = piece->end};
     item.group = g_strndup(piece->start + 1, (size_t)length - 2);
@@ -70,7 +70,7 @@ static bool take_key(struct scanner *scanner, const struct piece *piece,
 {
     const char *equals = memchr(piece->start, '=', (size_t)(piece->stop - piece->start));
     if (!equals || equals == piece->start) {
-        return refuse(scanner, piece, "accepted [group], key = value or # comment", err);
+        return refuse(scanner, piece, "expected [group], key = value or # comment", err);
     }
     if (!scanner->group) {
         return refuse(scanner, piece, "a [group] must come before the first key", err);

@@ -56,13 +56,13 @@ static bool check_row(const struct gb_table *table, size_t row, const struct qua
     const double error = q->error != NULL ? q->error[row] * q->unit : (double)NAN;
     if (!((value > 0.0 || (from_zero && value == 0.0)) && value <= most)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.200s:%d: %s %g: accepted %s 0, up to %g",
+                            "%.200s:%d: %s %g: expected %s 0, up to %g",
                             gb_table_path(table), gb_table_line(table, row), q->name,
                             q->value[row], from_zero ? "from" : "above", most / q->unit);
     }
     if (error < 0.0) {
         return gb_error_set(
-            err, GB_ERR_INPUT, "%.200s:%d: %s_error %g: accepted 0 or more, or empty",
+            err, GB_ERR_INPUT, "%.200s:%d: %s_error %g: expected 0 or more, or empty",
             gb_table_path(table), gb_table_line(table, row), q->name, q->error[row]);
     }
     return true;

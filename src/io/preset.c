@@ -80,7 +80,7 @@ static bool read_file(const char *path, GString *text, struct gb_error *err)
     }
     if (is_named_pipe(file)) {
         close(file);
-        return gb_error_set(err, GB_ERR_INPUT, "%s: is a named pipe; accepted: a file",
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is a named pipe; expected: a file",
                             path);
     }
     (void)fcntl(file, F_SETFL, 0); /* blocks again */

@@ -144,7 +144,7 @@ bool gb_die_summary_check(const struct gb_runset *set, struct gb_error *err)
             gb_loading_kind_of(&run->params)->columns != GB_COLUMNS_DIE ||
             run->params.die_cycle != GB_DIE_CYCLE_FULL) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%.300s: no full die cycle; accepted runs with "
+                                "%.300s: no full die cycle; expected runs with "
                                 "scene.kind = die and die.cycle = full",
                                 run->directory);
         }

@@ -308,7 +308,7 @@ static bool has_curve(const struct gb_runset_run *run, struct gb_error *err)
 {
     return run->table != NULL ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "%.300s: a packing has no curve.csv; accepted runs",
+                        "%.300s: a packing has no curve.csv; expected runs",
                         run->directory);
 }
 

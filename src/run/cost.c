@@ -158,7 +158,7 @@ static bool check(const struct gb_params *params, double rate, struct gb_error *
     }
     if (!(rate > 0.0 && isfinite(rate))) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%g particle-steps per second: accepted above 0", rate);
+                            "%g particle-steps per second: expected above 0", rate);
     }
     return gb_params_check(params, err);
 }
@@ -353,7 +353,7 @@ bool gb_cost_check_limit(const struct gb_cost *cost, struct gb_error *err)
     return gb_cost_within_limit(cost->seconds) ||
            gb_error_set(err, GB_ERR_INPUT,
                         "the run will take about %s: %.3g particle-steps at %.3gM/s; "
-                        "accepted with --yes",
+                        "expected with --yes",
                         gb_cost_duration(cost->seconds, duration, sizeof duration),
                         cost->particle_steps, cost->particle_steps_per_s / 1e6);
 }

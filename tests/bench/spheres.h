@@ -46,7 +46,7 @@ static inline bool spheres_take(struct spheres *spheres, GHashTable *index_of, b
         const struct sphere sphere = {.x = {a[3], a[4], a[5]}};
         g_hash_table_insert(index_of, key, GINT_TO_POINTER((int)spheres->row->len));
         g_array_append_val(spheres->row, sphere);
-        return a[1] == 1.0 || spheres_fail("accepted: diameters of 1", path);
+        return a[1] == 1.0 || spheres_fail("expected: diameters of 1", path);
     }
     if (g_hash_table_contains(index_of, key)) {
         const int i = GPOINTER_TO_INT(g_hash_table_lookup(index_of, key));

@@ -187,7 +187,7 @@ refused 'nothing that is kept' "$greenbody" run default output.export=csv --quie
 refused 'no run' "$greenbody" export --format csv -o out
 refused 'no format' "$greenbody" export run -o out
 refused 'an unknown format' "$greenbody" export run --format xyz -o out
-is 'which lists the others' grep -q 'accepted extxyz, lammps-dump' stderr
+is 'which lists the others' grep -q 'expected extxyz, lammps-dump' stderr
 refused 'no file' "$greenbody" export run --format csv
 refused 'no such state' "$greenbody" export run --format csv --at 'p=1 GPa' -o out
 refused 'a directory without a run' "$greenbody" export . --format csv -o out

@@ -89,7 +89,7 @@ is 'what follows from it is no axis' other_axis
 names_have_no_range() {
     # shellcheck disable=SC2086
     refuses "$greenbody" sweep $scene --design sobol:4 --vary material=a:b --out wrong &&
-        grep -q 'material=a:b: accepted in a grid' stderr
+        grep -q 'material=a:b: expected in a grid' stderr
 }
 is 'names have no range' names_have_no_range
 of_law() {

@@ -83,7 +83,7 @@ is 'and says so' grep -q -e '--paper: the papers print no number' stderr
 
 # --- wrong input -------------------------------------------------------------------------
 refused 'no directory' '--out' "$greenbody" papers
-refused 'an unknown experiment' 'accepted P1' "$greenbody" papers --only P4 --out out
+refused 'an unknown experiment' 'expected P1' "$greenbody" papers --only P4 --out out
 refused 'a word too many' 'options only' "$greenbody" papers P1 --out out
 refused 'too few particles' '--count 3: must be between 50' "$greenbody" papers --count 3 --out out
 refused 'no particles' '--count 0: must be between 50' "$greenbody" papers --count 0 --out out

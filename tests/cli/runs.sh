@@ -50,7 +50,7 @@ is 'those of a sweep below its name' [ "$(grep -c '^set/' stdout)" -eq 2 ]
 is 'a folder that is named' list "$here/runs"
 is 'has its own only' eval 'says "^default-1 " && [ "$(wc -l <stdout)" -eq 2 ]'
 list "$here/none"
-is 'a folder that is none is refused' eval '[ $? -eq 2 ] || grep -q "accepted a folder" stderr'
+is 'a folder that is none is refused' eval '[ $? -eq 2 ] || grep -q "expected a folder" stderr'
 "$greenbody" report "$here/runs/default-1" -o "$kept/report" >stdout 2>stderr
 is 'a report has the preset of its run' [ -s "$kept/report/preset.ini" ]
 is 'and is no run' eval 'list && ! says "^report"'
@@ -97,7 +97,7 @@ for path in tables:
 # --- attach without a run
 "$greenbody" attach >stdout 2>stderr
 is 'attach without a live run is refused' [ $? -eq 2 ]
-is 'with what is accepted' grep -q 'no run is live below .*accepted a run directory' stderr
+is 'with what is expected' grep -q 'no run is live below .*expected a run directory' stderr
 
 # --- live ones: a process without a terminal is detached
 # shellcheck disable=SC2086

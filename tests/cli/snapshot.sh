@@ -48,7 +48,7 @@ good "a sequence of numbered frames" snapshot a --sequence --quiet -o f-%02d.png
 result "they are numbered from 1" $?
 refused "numbered frames that exist" "f-01.png: exists; --force replaces it" \
     snapshot a --sequence -o f-%02d.png
-refused "two numbers in a name" "accepted one number" snapshot a --sequence -o %d-%d.png
+refused "two numbers in a name" "expected one number" snapshot a --sequence -o %d-%d.png
 refused "no frames a second" "0.1 to 100" snapshot a --sequence --fps 0 -o g.png
 refused "a sequence of one state" "output.snapshots_at" snapshot a/state.h5 --sequence \
     -o g.png
@@ -98,9 +98,9 @@ for path in sys.argv[1:]:
 python3 -c "$printed" wide.png wide-figure.png
 result "as many pixels, and their density in the file" $?
 refused "a width without a unit" "8cm, 80mm, 3.3in" snapshot a -o x.png --width 8
-refused "pixels and a width" "--size, --width: accepted one of them" plot a \
+refused "pixels and a width" "--size, --width: expected one of them" plot a \
     --figure densification -o x.png --width 8cm --size 300x300
-refused "a density alone" "--dpi: accepted with --width" snapshot a -o x.png --dpi 300
+refused "a density alone" "--dpi: expected with --width" snapshot a -o x.png --dpi 300
 refused "size 0" "16 to 16384" snapshot a -o x.png --size 0x0
 refused "size 100000" "16 to 16384" snapshot a -o x.png --size 100000x100000
 refused "no such point" "keeps states at" snapshot a -o x.png --at "p=5 GPa"

@@ -20,7 +20,7 @@ for command in yield strength; do
     is "$command: unknown preset" refused 'no-such' "$greenbody" $command no-such --out out
     is "$command: unknown option" refused 'colour' "$greenbody" $command default --colour \
         --out out
-    is "$command: --at and --density" refused 'accepted one of them' \
+    is "$command: --at and --density" refused 'expected one of them' \
         "$greenbody" $command default --at '50 MPa' --density 0.5 --out out
     is "$command: --density" refused '--density' "$greenbody" $command default \
         --density x --out out
@@ -68,7 +68,7 @@ is 'a third cell is added' strength --replicas 3
 is 'alone' [ "$(grep -c 'cell-' stderr)" -eq 1 ]
 is 'the figures are drawn' "$greenbody" plot out --figure strength -o strength.svg
 is 'of both kinds' "$greenbody" plot out --figure strength-curves -o curves.svg
-is 'a compact that is not there' refused 'accepted 30' \
+is 'a compact that is not there' refused 'expected 30' \
     "$greenbody" plot out --figure strength-curves --at '70 MPa' -o none.svg
 echo "1..$tests"
 exit $bad

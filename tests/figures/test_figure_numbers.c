@@ -139,7 +139,7 @@ static void test_strength_at(void)
     gb_series_finish(&series);
     input.at = "70 MPa";
     g_assert_false(gb_figures_run(row, &series, &input, &err));
-    g_assert_nonnull(strstr(err.text, "accepted 50, 100"));
+    g_assert_nonnull(strstr(err.text, "expected 50, 100"));
     gb_series_finish(&series);
     g_free(path);
 }

@@ -352,7 +352,7 @@ static void test_die_section(void)
     g_assert_cmpfloat_with_epsilon(first(&series, "density"), 0.7, 1e-12);
     gb_series_finish(&series);
     g_assert_false(figure_folder_named("die-section", two, &series, &err));
-    g_assert_nonnull(strstr(err.text, "accepted one run"));
+    g_assert_nonnull(strstr(err.text, "expected one run"));
     gb_state_destroy(state);
     g_free(path);
 }

@@ -241,7 +241,7 @@ static void test_unknown(void)
     struct gb_error err = {0};
     g_assert_null(gb_export_find("xyz", &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    g_assert_nonnull(strstr(err.text, "accepted extxyz, lammps-dump"));
+    g_assert_nonnull(strstr(err.text, "expected extxyz, lammps-dump"));
 }
 
 int main(int argc, char **argv)

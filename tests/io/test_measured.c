@@ -30,7 +30,8 @@ static bool read_file(struct gb_measured **measured, const char *path,
         return gb_error_set(err, GB_ERR_INPUT, "%s", report.question);
     }
     g_assert_cmpstr(report.told, ==, "");
-    const bool good = outcome == GB_LAB_READ && gb_measured_take(measured, table, false, err);
+    const bool good =
+        outcome == GB_LAB_READ && gb_measured_take(measured, table, false, err);
     gb_table_destroy(table);
     return good;
 }
@@ -86,9 +87,9 @@ static void test_refusals(void)
 {
     expect_error("density,force\n0.3,1\n", "force from column 2");
     expect_error("density,p_MPa\n", "has no rows");
-    expect_error("density,p_MPa\n0.3,10\n38.7,100\n", ":3: density 38.7: accepted");
-    expect_error("density,p_MPa\n0.3,-1\n", ":2: p_MPa -1: accepted");
-    expect_error("density,p_MPa\n0.3,0\n", ":2: p_MPa 0: accepted above 0");
+    expect_error("density,p_MPa\n0.3,10\n38.7,100\n", ":3: density 38.7: expected");
+    expect_error("density,p_MPa\n0.3,-1\n", ":2: p_MPa -1: expected");
+    expect_error("density,p_MPa\n0.3,0\n", ":2: p_MPa 0: expected above 0");
     expect_error("density,p_MPa\n0.3,\n", ":2: p_MPa");
     expect_error("density,p_MPa,density_error\n0.3,10,-1\n", "density_error -1");
     expect_error("density,p_MPa\n0.3,ten\n", "ten");

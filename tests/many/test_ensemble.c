@@ -291,7 +291,7 @@ static void test_axes_design(void)
     }
     g_assert_false(gb_axes_design(&axes, "sobol:1", &err));
     g_assert_false(gb_axes_design(&axes, "grid:8", &err));
-    g_assert_nonnull(strstr(err.text, "accepted sobol:N"));
+    g_assert_nonnull(strstr(err.text, "expected sobol:N"));
 }
 
 static void test_axes_refuse(void)

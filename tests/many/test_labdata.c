@@ -77,7 +77,7 @@ static void test_refused(void)
         const char *text, *told;
     } bad[] = {
         {"p_MPa,density,lateral_ratio\n100,0.5,0.6\n", "an error above 0"},
-        {"p_MPa,lateral_ratio,branch\n100,0.6,unload\n", "accepted on branch load"},
+        {"p_MPa,lateral_ratio,branch\n100,0.6,unload\n", "expected on branch load"},
         {"p_MPa,coordination\n100,40\n", "between 0 and 15"},
         {"p_MPa,unloading_modulus_GPa\n100,-1\n", "must be above 0"},
         {"p_MPa,density,weight\n100,0.5,0\n", "weight must be above 0"},

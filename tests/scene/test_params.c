@@ -176,13 +176,13 @@ static const char *const refused[][2] = {
     {"contact.muu=1", "no such key; did you mean contact.mu? must be one of normal, "},
     {"contacts.mu=1",
      "no such group; did you mean contact.mu? must be one of scene, material"},
-    {"nu=1", "nu: no such key; did you mean material.poisson? accepted group.key, as"},
-    {"alhpa=1", "no such key; did you mean contact.alpha? accepted group.key"},
+    {"nu=1", "nu: no such key; did you mean material.poisson? expected group.key, as"},
+    {"alhpa=1", "no such key; did you mean contact.alpha? expected group.key"},
     {"particles.coutn=1", "did you mean particles.count? must be one of"},
-    {"zzzz=1", "zzzz: no such key; accepted group.key, as contact.mu"},
+    {"zzzz=1", "zzzz: no such key; expected group.key, as contact.mu"},
     {"diameter=1 mm", "must be one of particles.diameter, die.diameter"},
     {"contact.mu", "must be group.key=value"},
-    {"=", ": no such key; accepted group.key"},
+    {"=", ": no such key; expected group.key"},
     {"", "must be group.key=value"},
 };
 

@@ -155,7 +155,7 @@ static void test_refused_files(void)
         struct gb_error err = {0};
         g_assert_false(read_text(&read, bad[k], &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-        g_assert_nonnull(strstr(err.text, "accepted"));
+        g_assert_nonnull(strstr(err.text, "expected"));
         gb_papers_printed_finish(&read);
     }
 }
@@ -171,7 +171,7 @@ static void test_experiments(void)
             struct gb_params params;
             struct gb_error err = {0};
             if (!gb_papers_plan_params(row, (enum gb_papers_size)size, 0, &params,
-                                              &err) ||
+                                       &err) ||
                 !gb_params_check(&params, &err)) {
                 g_error("%s: %s", row->name, err.text);
             }
@@ -185,8 +185,7 @@ static size_t points_of(const char *experiment)
     struct gb_error err = {0};
     const size_t index = gb_papers_plan_index(experiment);
     g_assert_cmpuint(index, <, gb_papers_plan_count());
-    g_assert_true(
-        gb_papers_plan_axes(&gb_papers_plan_table()[index], &axes, &err));
+    g_assert_true(gb_papers_plan_axes(&gb_papers_plan_table()[index], &axes, &err));
     const size_t points = gb_axes_points(&axes);
     gb_axes_finish(&axes);
     return points;

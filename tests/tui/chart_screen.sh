@@ -28,7 +28,7 @@ shows "one cell has no error" 'number of cells must be between 2 and 1000'
 keys C-u
 keys -l '2 10'
 keys Enter
-shows "a time has a unit" '10: accepted a CPU time above 0, as in 15min'
+shows "a time has a unit" '10: expected a CPU time above 0, as in 15min'
 keys C-u
 keys -l '2 15min 10MPa'
 keys Enter
@@ -78,7 +78,7 @@ keys X
 shows "X asks for states there" 'Stability of this scene.s methods'
 keys -l 'here'
 keys Enter
-shows "a state is a pressure or a density" 'here: accepted pressures or densities'
+shows "a state is a pressure or a density" 'here: expected pressures or densities'
 keys C-u
 keys -l '10 MPa'
 keys Enter

@@ -69,7 +69,7 @@ is "options go before it" grep -q '^plots *ascii' "$here/out"
 printf '[screen]\nslow = maybe\n' >"$here/config/greenbody/screen.ini"
 "$greenbody" --diagnose >"$here/out" 2>"$here/err"
 is "a wrong value is an error of input" [ $? -eq 2 ]
-is "in one line that names the file" grep -q 'screen.ini: slow = maybe: accepted' "$here/err"
+is "in one line that names the file" grep -q 'screen.ini: slow = maybe: expected' "$here/err"
 rm "$here/config/greenbody/screen.ini"
 
 # --- the manual page has every key of the table
@@ -88,7 +88,7 @@ is "which are not few" [ "$(wc -l <"$here/keys")" -gt 40 ]
 # --- options of the screen
 open_terminal
 start "$small --color=pink"
-shows "a wrong option is told" 'color = pink: accepted: auto, always, never'
+shows "a wrong option is told" 'color = pink: expected: auto, always, never'
 shows "with status 2" 'status=2'
 start "$small --ascii"
 shows "--ascii opens" 'Parameters'

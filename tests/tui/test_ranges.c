@@ -63,12 +63,12 @@ static void test_refuse(void)
         {"p=-5 MPa:10 MPa", "not negative"},
         {"p=10:500", "unit"},
         {"p=10 nm:500 nm", "nm"},
-        {"q=1:2", "accepted are ranges"},
-        {"rubbish", "accepted are ranges"},
+        {"q=1:2", "expected ranges"},
+        {"rubbish", "expected ranges"},
         {"p=10 MPa:500 MPa rubbish", "p:"},
         {"rho=a:b", "rho:"},
         {"rho=nan:0.5", "rho:"},
-        {"=1:2", "accepted are ranges"},
+        {"=1:2", "expected ranges"},
     };
     for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
         struct gb_plot_ranges ranges = parsed("t=1:2");

@@ -67,7 +67,7 @@ is "no colour is sent" unsent '[34]8;5;'
 leaves "quits"
 with=
 start "--theme=pink $small"
-shows "another name is refused" 'theme = pink: accepted: auto, light, dark, contrast'
+shows "another name is refused" 'theme = pink: expected: auto, light, dark, contrast'
 shows "with status 2" 'status=2'
 printf 'no key file\n' >"$settings"
 start "$small"

@@ -14,8 +14,8 @@
 #include "io/runs/run_list.h"
 #include "runner/runner.h"
 #include "tui/app/app.h"
-#include "tui/watch/runs_picker.h"
 #include "tui/term/term_profile.h"
+#include "tui/watch/runs_picker.h"
 #include "tui/watch/runset_view.h"
 #include "tui/watch/watch.h"
 
@@ -102,7 +102,7 @@ static char *choose(const struct gb_settings *settings, int *status, struct gb_e
     if (list->len == 0) {
         char *where = gb_runs_folders_text();
         gb_error_set(err, GB_ERR_INPUT,
-                     "attach: there are no runs below %.200s; accepted a run directory",
+                     "attach: there are no runs below %.200s; expected a run directory",
                      where);
         g_free(where);
     } else {
@@ -119,14 +119,14 @@ static void name_live(struct gb_error *err)
     if (list->len == 0) {
         char *where = gb_runs_folders_text();
         gb_error_set(err, GB_ERR_INPUT,
-                     "attach: no run is live below %.200s; accepted a run directory "
+                     "attach: no run is live below %.200s; expected a run directory "
                      "(`greenbody runs` lists all)",
                      where);
         g_free(where);
     } else {
         const struct gb_run_list_item *first = g_ptr_array_index(list, 0);
         gb_error_set(err, GB_ERR_INPUT,
-                     "attach: accepted one run directory; %u live, the newest in %.200s "
+                     "attach: expected one run directory; %u live, the newest in %.200s "
                      "(`greenbody runs` lists all)",
                      list->len, first->directory);
     }

@@ -42,7 +42,7 @@ static bool read_densities(struct gb_card_options *options, const char *text,
         options->density[i] = g_ascii_strtod(words[i], &end);
         good = (end != words[i] && *end == '\0') ||
                gb_error_set(err, GB_ERR_INPUT,
-                            "--densities: '%.40s': accepted numbers, as in 0.4,0.5,0.6",
+                            "--densities: '%.40s': expected numbers, as in 0.4,0.5,0.6",
                             words[i]);
     }
     options->levels = good ? (int)count : 0;
@@ -67,7 +67,7 @@ static bool take_options(struct gb_card_options *options, const struct request *
         return gb_error_set(err, GB_ERR_INPUT, "card needs a preset and --out DIR");
     }
     return (options->pressure_pa > 0.0 ||
-            gb_error_set(err, GB_ERR_INPUT, "--pressure %g: accepted above 0",
+            gb_error_set(err, GB_ERR_INPUT, "--pressure %g: expected above 0",
                          request->pressure_mpa)) &&
            (request->densities == NULL ||
             read_densities(options, request->densities, err)) &&

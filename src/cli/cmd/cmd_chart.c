@@ -175,7 +175,7 @@ static bool check_write(const struct chart *chart, struct gb_error *err)
     g_free(own);
     return fine ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--write %.300s: exists; accepted: a new file, the preset "
+                        "--write %.300s: exists; expected: a new file, the preset "
                         "itself, or --force",
                         chart->write);
 }
@@ -193,14 +193,14 @@ static bool check(struct chart *chart, struct gb_error *err)
     }
     if (!(chart->standard_error > 0.0) || chart->allowed < 0.0) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--allow and --standard-error: accepted above 0");
+                            "--allow and --standard-error: expected above 0");
     }
     struct gb_error why = {0};
     if (chart->budget_text &&
         (!gb_units_parse(chart->budget_text, GB_DIM_TIME, &chart->budget_s, &why) ||
          !(chart->budget_s > 0.0))) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--budget %.80s: accepted a time above 0, as in '10 min'",
+                            "--budget %.80s: expected a time above 0, as in '10 min'",
                             chart->budget_text);
     }
     return true;

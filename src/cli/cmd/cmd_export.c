@@ -50,7 +50,7 @@ static bool check_target(const char *path, gboolean force, struct gb_error *err)
         return true;
     }
     if (!force && g_file_test(path, G_FILE_TEST_EXISTS)) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; accepted with --force",
+        return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; expected with --force",
                             path);
     }
     return gb_rundir_files_protect(path, err) && gb_file_check_target(path, err);
@@ -186,7 +186,7 @@ static bool perform(const struct request *request, char **words, struct gb_error
     if (request->contacts != NULL &&
         gb_file_is_same(request->contacts, request->output)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--contacts %.300s: accepted a name other than that of -o",
+                            "--contacts %.300s: expected a name other than that of -o",
                             request->contacts);
     }
     job.density_kg_m3 = solid_density(job.source);

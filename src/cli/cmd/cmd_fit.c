@@ -163,7 +163,7 @@ static bool parse_equation(struct request *request, struct gb_error *err)
         g_string_append_printf(names, "%s%s", i > 0 ? ", " : "",
                                gb_equations_at(i)->name);
     }
-    gb_error_set(err, GB_ERR_INPUT, "--equation %.80s: accepted %s", request->equation,
+    gb_error_set(err, GB_ERR_INPUT, "--equation %.80s: expected %s", request->equation,
                  names->str);
     g_string_free(names, TRUE);
     return false;
@@ -181,7 +181,7 @@ static bool parse_pressure(const char *option, const char *text, double *to,
         gb_units_parse(text, GB_DIM_PRESSURE, &pascal, NULL) && pascal > 0.0;
     *to = 1e-6 * pascal;
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "%s %.80s: accepted a pressure above 0 with its unit, as "
+                                "%s %.80s: expected a pressure above 0 with its unit, as "
                                 "in \"20 MPa\"",
                                 option, text);
 }
@@ -199,7 +199,7 @@ static bool parse_initial(struct request *request, struct gb_error *err)
             *initial > 0.0 && *initial < 1.0) ||
            gb_error_set(
                err, GB_ERR_INPUT,
-               "--initial %.80s: accepted a relative density between 0 and 1, or "
+               "--initial %.80s: expected a relative density between 0 and 1, or "
                "fit",
                request->initial);
 }
@@ -236,7 +236,7 @@ static bool read_runs(struct gb_compaction_data *data, const struct request *req
         const struct gb_field *field = gb_runset_difference(&set, 0, 1, none);
         good = gb_error_set(
             err, GB_ERR_INPUT,
-            "%.200s: another scene than %.200s (%s.%s): accepted runs of "
+            "%.200s: another scene than %.200s (%s.%s): expected runs of "
             "one scene, which are replicas",
             gb_runset_first(&set, 1)->directory, gb_runset_first(&set, 0)->directory,
             field != NULL ? field->group : "", field != NULL ? field->key : "");

@@ -56,7 +56,7 @@ static bool parse_variation(struct variation *variation, const char *text,
         g_strstrip(variation->values[i]);
     }
     return (variation->values[0] && variation->values[0][0]) ||
-           gb_error_set(err, GB_ERR_INPUT, "--vary %.80s: accepted group.key=A,B,...",
+           gb_error_set(err, GB_ERR_INPUT, "--vary %.80s: expected group.key=A,B,...",
                         text);
 }
 
@@ -132,7 +132,7 @@ static bool find_law(const char *name, const struct gb_law_table_law **out,
     for (size_t i = 0; i < count; i++) {
         g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", laws[i].name);
     }
-    gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s",
+    gb_error_set(err, GB_ERR_INPUT, "law %.40s: expected %s",
                  name ? name : "without name", names->str);
     g_string_free(names, TRUE);
     return false;
@@ -149,7 +149,7 @@ static bool find_lattice(const char *name, struct request *request, struct gb_er
     request->rows.lattice = name != NULL ? gb_law_table_find_lattice(name) : NULL;
     return name == NULL || request->rows.lattice != NULL ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--lattice %.40s: accepted sc, fcc, bcc or diamond", name);
+                        "--lattice %.40s: expected sc, fcc, bcc or diamond", name);
 }
 
 static bool run(struct request *request, const char *lattice, char **words, char **sets,

@@ -152,7 +152,7 @@ static bool keep(struct gb_pack_bed *bed, const struct gb_experiment *experiment
     if (bed->filling->len >= GB_PACK_BED_STATES) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "--every: more than %d states of the filling; accepted a longer "
+            "--every: more than %d states of the filling; expected a longer "
             "time",
             GB_PACK_BED_STATES);
     }
@@ -294,7 +294,7 @@ static bool check_options(const struct pack *pack, struct gb_error *err)
     }
     if (searches && (pack->directory != NULL || pack->every != NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--percolation writes a table to standard output; accepted "
+                            "--percolation writes a table to standard output; expected "
                             "without --out and --every");
     }
     return searches || pack->directory != NULL ||
@@ -307,14 +307,14 @@ static bool check_scene(struct pack *pack, struct gb_error *err)
 {
     if (pack->every != NULL && !is_bed(pack)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--every keeps states while a die is filled; accepted for "
+                            "--every keeps states while a die is filled; expected for "
                             "scene.kind = die");
     }
     if (pack->every != NULL &&
         (!gb_units_parse(pack->every, GB_DIM_TIME, &pack->every_s, NULL) ||
          !(pack->every_s > 0.0))) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--every %.80s: accepted a time above 0, as in '5 us'",
+                            "--every %.80s: expected a time above 0, as in '5 us'",
                             pack->every);
     }
     return pack->percolation == NOT_GIVEN ||

@@ -50,7 +50,7 @@ static bool check_request(const struct request *request, char **words,
 {
     if (words[0] != NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "papers %.100s: accepted options only; experiments are "
+                            "papers %.100s: expected options only; experiments are "
                             "chosen by --only",
                             words[0]);
     }

@@ -72,7 +72,7 @@ static bool parse_densities(const char *text, struct gb_figures_input *to,
     g_strfreev(parts);
     return good ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--density %.80s: accepted up to %d numbers between 0 and 2, as "
+                        "--density %.80s: expected up to %d numbers between 0 and 2, as "
                         "in 0.8,0.9,0.95",
                         text, GB_FIGURES_DENSITIES);
 }
@@ -89,7 +89,7 @@ static bool check_options(const struct request *request,
         return false;
     }
     if (request->log != NULL && strspn(request->log, "xy") != strlen(request->log)) {
-        return gb_error_set(err, GB_ERR_INPUT, "--log %.80s: accepted x, y or xy",
+        return gb_error_set(err, GB_ERR_INPUT, "--log %.80s: expected x, y or xy",
                             request->log);
     }
     return true;
@@ -169,7 +169,7 @@ static bool set_inset(struct gb_series *series, const char *text, struct gb_erro
     if (!none && (!gb_units_number(text, &end, &from) || *end != ':' ||
                   !gb_units_number(end + 1, &end, &to) || *end != '\0' || !(from < to))) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--inset %.80s: accepted FROM:TO of the lower axis, as in "
+                            "--inset %.80s: expected FROM:TO of the lower axis, as in "
                             "5:9, or none",
                             text);
     }
@@ -204,7 +204,7 @@ static bool add_paper(struct gb_series *series, const struct request *request,
            (drawn > 0 ||
             gb_error_set(err, GB_ERR_INPUT,
                          "--paper: the papers print no number for the figure %s of these "
-                         "scenes; accepted without it",
+                         "scenes; expected without it",
                          figure->name));
 }
 

@@ -100,7 +100,7 @@ static bool check_folders(char **folders, struct gb_error *err)
     for (int i = 0; folders[i] != NULL; i++) {
         if (!g_file_test(folders[i], G_FILE_TEST_IS_DIR)) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%.300s: accepted a folder of run directories",
+                                "%.300s: expected a folder of run directories",
                                 folders[i]);
         }
     }

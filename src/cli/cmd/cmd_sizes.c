@@ -39,7 +39,7 @@ static const double *find_diameter(struct histogram *histogram, struct gb_error 
     }
     gb_error_set(
         err, GB_ERR_INPUT,
-        "%.300s: no column of diameters; accepted diameter_nm or another unit of "
+        "%.300s: no column of diameters; expected diameter_nm or another unit of "
         "length",
         gb_table_path(histogram->table));
     return NULL;
@@ -61,7 +61,7 @@ static bool read_histogram(struct histogram *histogram, const char *path,
     if (histogram->middle != NULL && histogram->weight == NULL) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "%.300s: accepted a column count (particles in each class) or "
+            "%.300s: expected a column count (particles in each class) or "
             "share_number",
             path);
     }

@@ -197,7 +197,7 @@ static bool perform(struct scene *scene, char **words, char **sets, struct gb_er
         return perform_scene(scene, words, sets, err);
     }
     return (scene->at == NULL ||
-            gb_error_set(err, GB_ERR_INPUT, "--at: accepted with a PRESET")) &&
+            gb_error_set(err, GB_ERR_INPUT, "--at: expected with a PRESET")) &&
            perform_study(scene->directory, err);
 }
 

@@ -115,7 +115,7 @@ static bool estimate(struct command *command, struct gb_error *err)
     if (!request->yes && !gb_cost_within_limit(wait_s)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "the sweep will take about %s: %zu runs of about %s, %zu at "
-                            "once; accepted with --yes",
+                            "once; expected with --yes",
                             total, runs, each, workers);
     }
     g_snprintf(command->estimate, sizeof command->estimate,

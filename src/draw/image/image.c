@@ -79,7 +79,7 @@ bool gb_image_parse_print(const char *width, int per_inch, struct gb_image_print
     const double pixels = round(inches * per_inch);
     if (pixels > GB_IMAGE_MAX) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--width %.80s --dpi %d: %g pixels; accepted %d", width,
+                            "--width %.80s --dpi %d: %g pixels; expected %d", width,
                             per_inch, pixels, GB_IMAGE_MAX);
     }
     *size = (struct gb_image_print){(int)pixels, (int)round(0.75 * pixels), per_inch};

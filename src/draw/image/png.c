@@ -163,7 +163,7 @@ bool gb_png_write(const struct gb_image *image, enum gb_png_alpha alpha,
 static bool no_chunk(const char *path, const char *key, struct gb_error *err)
 {
     return gb_error_set(err, GB_ERR_INPUT,
-                        "%.300s: has no text chunk %s; accepted a PNG written by "
+                        "%.300s: has no text chunk %s; expected a PNG written by "
                         "greenbody from a run",
                         path, key);
 }

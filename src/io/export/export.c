@@ -33,7 +33,7 @@ const struct gb_export_format *gb_export_find(const char *name, struct gb_error 
         found = strcmp(formats[i].name, name) == 0 ? &formats[i] : found;
     }
     if (found == NULL) {
-        gb_error_set(err, GB_ERR_INPUT, "--format %.60s: accepted %s", name, names->str);
+        gb_error_set(err, GB_ERR_INPUT, "--format %.60s: expected %s", name, names->str);
     }
     g_string_free(names, TRUE);
     return found;

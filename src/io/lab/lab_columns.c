@@ -83,7 +83,7 @@ static enum gb_lab_outcome find_given(struct gb_lab_reading *reading,
         char *list = gb_lab_layout_list(reading);
         char number[16];
         g_snprintf(number, sizeof number, "%d", given->index);
-        gb_lab_question_fail(reading, "%.200s: %s=%.60s: accepted one of the columns %s",
+        gb_lab_question_fail(reading, "%.200s: %s=%.60s: expected one of the columns %s",
                              reading->path, what, given->index > 0 ? number : given->name,
                              list);
         g_free(list);

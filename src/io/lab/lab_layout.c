@@ -125,7 +125,7 @@ static enum gb_lab_outcome check_width(struct gb_lab_reading *reading)
             reading->separator != '\t') {
             return gb_lab_question_fail(
                 reading,
-                "%.200s:%d: %zu cells below %zu heads; accepted one cell per head, "
+                "%.200s:%d: %zu cells below %zu heads; expected one cell per head, "
                 "numbers with a decimal comma in quotes or between semicolons",
                 reading->path, row->line, row->count, heads);
         }
@@ -142,7 +142,7 @@ static enum gb_lab_outcome cut(struct gb_lab_reading *reading, const char *text)
     }
     if (!gb_lab_separator_first(grid, &reading->first)) {
         return gb_lab_question_fail(reading,
-                                    "%.200s: no rows of two numbers or more; accepted a "
+                                    "%.200s: no rows of two numbers or more; expected a "
                                     "table of pressure (or force) and density (or "
                                     "travel)",
                                     reading->path);

@@ -110,7 +110,7 @@ static enum gb_lab_outcome check_unused(struct gb_lab_reading *reading)
     }
     if (!isnan(options->initial_height_m) && !isnan(options->zero_travel_m)) {
         return gb_lab_question_fail(
-            reading, "initial-height, zero-travel: accepted one of the two");
+            reading, "initial-height, zero-travel: expected one of the two");
     }
     return GB_LAB_READ;
 }

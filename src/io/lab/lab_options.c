@@ -78,7 +78,7 @@ static bool set_mark(struct gb_lab_options *options, const char *key, const char
             return true;
         }
     }
-    return gb_error_set(err, GB_ERR_INPUT, "%s=%.40s: accepted %s", key, value,
+    return gb_error_set(err, GB_ERR_INPUT, "%s=%.40s: expected %s", key, value,
                         *key == 'd' ? "comma, point"
                                     : "comma, semicolon, tab, blank, bar");
 }
@@ -96,7 +96,7 @@ bool gb_lab_options_set(struct gb_lab_options *options, const char *key,
             if (!gb_units_parse(value, quantity->dimension, &si, NULL) ||
                 (!(si > 0.0) && quantity->dimension != GB_DIM_LENGTH)) {
                 return gb_error_set(err, GB_ERR_INPUT,
-                                    "%s=%.40s: accepted a number above 0 in %s, as in %s",
+                                    "%s=%.40s: expected a number above 0 in %s, as in %s",
                                     key, value, gb_units_accepted(quantity->dimension),
                                     quantity->example);
             }
@@ -105,7 +105,7 @@ bool gb_lab_options_set(struct gb_lab_options *options, const char *key,
         }
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "%.40s: accepted pressure, density, porosity, force, travel, "
+                        "%.40s: expected pressure, density, porosity, force, travel, "
                         "height, density_error, pressure_error, branch, series, decimal, "
                         "separator, die-area, powder-mass, true-density, compliance, "
                         "initial-height, zero-travel",
@@ -161,13 +161,14 @@ static bool parse_column(const char **at, enum gb_lab_role role,
         column->name[0] == '\0' || (!quoted && strcmp(column->name, "?") == 0)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "%.60s: accepted the number of a column or its head in quotes", column->name);
+            "%.60s: expected the number of a column or its head in quotes", column->name);
     }
     if (!quoted && strspn(column->name, "0123456789") == strlen(column->name)) {
         if (!g_ascii_string_to_unsigned(column->name, 10, 1, GB_TABLE_COLUMNS_MAX, &index,
                                         NULL)) {
-            return gb_error_set(err, GB_ERR_INPUT, "column %.20s: must be between 1 and %d",
-                                column->name, GB_TABLE_COLUMNS_MAX);
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "column %.20s: must be between 1 and %d", column->name,
+                                GB_TABLE_COLUMNS_MAX);
         }
         column->index = (int)index;
         column->name[0] = '\0';
@@ -215,7 +216,7 @@ static bool parse_item(struct gb_lab_options *options, const char **at,
     bool quoted = false;
     if (!take_part(at, "=,", key, sizeof key, &quoted) || **at != '=') {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.60s: accepted a list as in pressure=2:MPa,density=4:%%",
+                            "%.60s: expected a list as in pressure=2:MPa,density=4:%%",
                             key);
     }
     (*at)++;

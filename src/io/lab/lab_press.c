@@ -182,7 +182,7 @@ static enum gb_lab_outcome check_densities(struct gb_lab_reading *reading)
         if (!(density > 0.0 && density <= 1.0)) {
             return gb_lab_question_fail(
                 reading,
-                "%.200s:%d: a relative density of %.4g: accepted above 0, up to 1; see "
+                "%.200s:%d: a relative density of %.4g: expected above 0, up to 1; see "
                 "columns, units and, of a travel, masses and heights",
                 reading->path, reading->line[i], density);
         }

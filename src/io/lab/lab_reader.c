@@ -114,7 +114,7 @@ static enum gb_lab_outcome check_words(struct gb_lab_reading *reading)
         if (*word != '\0' && strcmp(word, first) != 0) {
             return gb_lab_question_fail(
                 reading,
-                "%.200s:%d: a second sample, and branches in column %d: accepted one "
+                "%.200s:%d: a second sample, and branches in column %d: expected one "
                 "sample in a file with branches",
                 reading->path, gb_lab_grid_row(grid, r)->line, branch + 1);
         }

@@ -54,7 +54,7 @@ static bool check_percent(struct gb_lab_reading *reading, struct gb_lab_column *
     if ((percent && !is_unit) || (column->percent && column->plain)) {
         char shown[GB_LAB_LAYOUT_COLUMN];
         gb_lab_question_fail(reading,
-                             "%.200s:%d: %s: accepted a percent sign in all cells, or in "
+                             "%.200s:%d: %s: expected a percent sign in all cells, or in "
                              "none, and no other unit",
                              reading->path, line,
                              gb_lab_layout_column(reading, column->index, shown));

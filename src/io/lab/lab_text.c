@@ -84,7 +84,7 @@ static bool decode(struct gb_lab_text *out, const char *path, const char *bytes,
     }
     if (!good) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.200s: its bytes are no %s: accepted text as UTF-8, UTF-16 "
+                            "%.200s: its bytes are no %s: expected text as UTF-8, UTF-16 "
                             "or Windows-1252",
                             path, encoding != NULL ? encoding : "text");
     }
@@ -104,7 +104,7 @@ bool gb_lab_text_read(struct gb_lab_text *out, const char *path, struct gb_error
     const struct mark *mark = find_mark(bytes, length);
     const bool good =
         mark != NULL && mark->encoding == NULL
-            ? gb_error_set(err, GB_ERR_INPUT, "%.200s: is %s; accepted its table as CSV",
+            ? gb_error_set(err, GB_ERR_INPUT, "%.200s: is %s; expected its table as CSV",
                            path, mark->what)
             : decode(out, path, bytes, length, mark, err);
     gb_alloc_free(bytes);

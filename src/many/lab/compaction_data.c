@@ -236,7 +236,7 @@ static bool check_samples(const struct gb_table *table, struct gb_error *err)
         for (size_t i = 1; strchr(name, '.') != NULL && i < gb_table_rows(table); i++) {
             if (column[i] != column[0] && !(isnan(column[i]) && isnan(column[0]))) {
                 return gb_error_set(err, GB_ERR_INPUT,
-                                    "%.200s:%d: %.80s changes; accepted one powder, the "
+                                    "%.200s:%d: %.80s changes; expected one powder, the "
                                     "others in files of their own",
                                     gb_table_path(table), gb_table_line(table, i), name);
             }
@@ -272,7 +272,7 @@ static const char *choose_series(const struct gb_table *table, const char *serie
     }
     if (chosen == NULL || (series == NULL && different > 1)) {
         chosen = NULL;
-        gb_error_set(err, GB_ERR_INPUT, "%.200s: accepted one series of %s",
+        gb_error_set(err, GB_ERR_INPUT, "%.200s: expected one series of %s",
                      gb_table_path(table), names->str);
     }
     g_string_free(names, TRUE);
@@ -289,7 +289,7 @@ static bool check_branch(const struct gb_table *table, size_t row, struct gb_err
         good = g_str_has_prefix(word, known[k]);
     }
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "%.200s:%d: branch %.80s: accepted load or unload",
+                                "%.200s:%d: branch %.80s: expected load or unload",
                                 gb_table_path(table), gb_table_line(table, row), word);
 }
 
@@ -384,7 +384,7 @@ bool gb_compaction_data_file(struct gb_compaction_data *data,
         return false;
     }
     if (measured->count > ROWS_MAX) {
-        gb_error_set(err, GB_ERR_INPUT, "%.200s: %zu rows; accepted up to %d", path,
+        gb_error_set(err, GB_ERR_INPUT, "%.200s: %zu rows; expected up to %d", path,
                      measured->count, ROWS_MAX);
         gb_measured_destroy(measured);
         return false;

@@ -60,7 +60,7 @@ static bool check_columns(const struct gb_table *table, struct gb_error *err)
     for (size_t k = 0; gb_table_name(table, k) != NULL; k++) {
         if (!is_known(gb_table_name(table, k))) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%.200s: column %.80s; accepted p_MPa, density, "
+                                "%.200s: column %.80s; expected p_MPa, density, "
                                 "lateral_ratio, coordination, unloading_modulus_GPa, "
                                 "their _error, weight, branch, series and keys as "
                                 "particles.diameter_nm",
@@ -84,7 +84,7 @@ static bool check_series(const struct gb_table *table, struct gb_error *err)
         if (strcmp(word, gb_table_word(table, 0)) != 0) {
             return gb_error_set(
                 err, GB_ERR_INPUT,
-                "%.200s:%d: series %.80s behind %.80s; accepted one, with "
+                "%.200s:%d: series %.80s behind %.80s; expected one, with "
                 "--series, or columns of keys as particles.diameter_nm",
                 gb_table_path(table), gb_table_line(table, i), word,
                 gb_table_word(table, 0));
@@ -205,12 +205,12 @@ static bool take_quantity(struct gb_labdata *measured, const struct gb_table *ta
     }
     if (measured->error != NULL && !(error > 0.0)) {
         return refuse_row(table, at,
-                          "accepted an error above 0 for each value (of several "
+                          "expected an error above 0 for each value (of several "
                           "quantities, or where one row has an error)",
                           err);
     }
     if (row.unloaded && row.quantity == GB_LAB_QUANTITY_LATERAL_RATIO) {
-        return refuse_row(table, at, "a lateral ratio: accepted on branch load", err);
+        return refuse_row(table, at, "a lateral ratio: expected on branch load", err);
     }
     const double weight = cell(table, "weight", at);
     if (measured->weight != NULL && weight <= 0.0) {
@@ -236,10 +236,10 @@ static bool take_row(struct gb_labdata *measured, const struct gb_table *table, 
     const size_t before = measured->count;
     struct gb_labdata_row row = {.unloaded = strcmp(word, "unload") == 0};
     if (!(pressure[at] > 0.0)) {
-        return refuse_row(table, at, "p_MPa: accepted a pressure above 0", err);
+        return refuse_row(table, at, "p_MPa: expected a pressure above 0", err);
     }
     if (!(row.unloaded || *word == '\0' || strcmp(word, "load") == 0)) {
-        return refuse_row(table, at, "branch: accepted load or unload", err);
+        return refuse_row(table, at, "branch: expected load or unload", err);
     }
     if (!find_scene(measured, table, at, base, &row.scene, err)) {
         return false;
@@ -252,7 +252,7 @@ static bool take_row(struct gb_labdata *measured, const struct gb_table *table, 
         }
     }
     return measured->count > before ||
-           refuse_row(table, at, "accepted one measured value at least", err);
+           refuse_row(table, at, "expected one measured value at least", err);
 }
 
 /* Quantities that have a column, and whether any has errors. */

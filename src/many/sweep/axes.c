@@ -43,7 +43,7 @@ static bool refuse(const char *text, struct gb_error *err)
 {
     return gb_error_set(
         err, GB_ERR_INPUT,
-        "%.120s: accepted group.key=FROM:TO:COUNT, FROM:TO:COUNT:log or a "
+        "%.120s: expected group.key=FROM:TO:COUNT, FROM:TO:COUNT:log or a "
         "list VALUE;VALUE;... or VALUE,VALUE,..., a unit at the end counts for all",
         text);
 }
@@ -51,7 +51,7 @@ static bool refuse(const char *text, struct gb_error *err)
 static bool refuse_range(const char *text, struct gb_error *err)
 {
     return gb_error_set(err, GB_ERR_INPUT,
-                        "%.120s: accepted in a design: group.key=FROM:TO or FROM:TO:log, "
+                        "%.120s: expected in a design: group.key=FROM:TO or FROM:TO:log, "
                         "a unit at the end counts for both",
                         text);
 }
@@ -63,7 +63,7 @@ bool gb_axes_design(struct gb_axes *axes, const char *text, struct gb_error *err
         !g_ascii_string_to_unsigned(text + strlen("sobol:"), 10, DESIGN_LEAST,
                                     GB_AXES_VALUES_MOST, &points, NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--design %.80s: accepted sobol:N, a Sobol sequence of %d to "
+                            "--design %.80s: expected sobol:N, a Sobol sequence of %d to "
                             "%d points",
                             text, DESIGN_LEAST, GB_AXES_VALUES_MOST);
     }
@@ -109,7 +109,7 @@ static bool add_value(struct gb_axis *axis, const char *text, struct gb_error *e
         }
     }
     if (axis->values->len == GB_AXES_VALUES_MOST) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s.%s: accepted up to %d values",
+        return gb_error_set(err, GB_ERR_INPUT, "%s.%s: expected up to %d values",
                             axis->field->group, axis->field->key, GB_AXES_VALUES_MOST);
     }
     g_ptr_array_add(axis->values, g_strdup(value));
@@ -161,7 +161,7 @@ static bool add_list(struct gb_axis *axis, const char *text, const char *values,
     if (*separator == ',' && is_decimal_comma(axis, values)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "%.120s: one number with a comma, or two: accepted a point in "
+            "%.120s: one number with a comma, or two: expected a point in "
             "numbers and ';' between values",
             text);
     }
@@ -291,7 +291,7 @@ static const struct gb_field *find_field(const struct gb_axes *axes, const char 
         field->type == GB_FIELD_SEED || field->type == GB_FIELD_SIZES ||
         field->type == GB_FIELD_PACKING) {
         gb_error_set(err, GB_ERR_INPUT,
-                     "%s: cannot be varied; accepted keys of one value that make another "
+                     "%s: cannot be varied; expected keys of one value that make another "
                      "experiment (replicas vary the seed)",
                      name);
         return NULL;
@@ -312,7 +312,7 @@ bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err)
         return refuse(text, err);
     }
     if (axes->count == GB_AXES_MOST) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.120s: accepted up to %d varied keys",
+        return gb_error_set(err, GB_ERR_INPUT, "%.120s: expected up to %d varied keys",
                             text, GB_AXES_MOST);
     }
     char *name = g_strstrip(g_strndup(text, (gsize)(equals - text)));
@@ -325,7 +325,7 @@ bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err)
     }
     if (material && axes->design > 0) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.120s: accepted in a grid, names have no range", text);
+                            "%.120s: expected in a grid, names have no range", text);
     }
     struct gb_axis *axis = &axes->axis[axes->count++];
     *axis = (struct gb_axis){field, .values = g_ptr_array_new_with_free_func(g_free),

@@ -72,7 +72,7 @@ bool gb_param_sweep_pressures(struct gb_sweep_table_pressures *at, const char *t
     sort_pressures(at);
     return good ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "%.120s: accepted up to %d pressures above 0 separated by "
+                        "%.120s: expected up to %d pressures above 0 separated by "
                         "';', as in 50;100;200 MPa",
                         text, GB_SWEEP_TABLE_PRESSURES);
 }
@@ -181,7 +181,7 @@ bool gb_param_sweep_target(struct gb_sweep_target *target, const char *text,
         target->standard_error > 0.0 && target->pressure_pa > 0.0;
     g_strfreev(parts);
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "--until-se %.80s: accepted a standard error of the "
+                                "--until-se %.80s: expected a standard error of the "
                                 "density and a pressure, as in 0.002@100MPa",
                                 text);
 }

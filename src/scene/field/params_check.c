@@ -162,7 +162,7 @@ bool gb_params_check(const struct gb_params *params, struct gb_error *err)
     if (params->export_format != GB_LIVE_NONE && points.count == 0 && points.every == 0) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "output.export: writes the states that output.snapshots_at "
-                            "keeps, which is empty; accepted none, or points there");
+                            "keeps, which is empty; expected none, or points there");
     }
     const struct gb_loading_kind *kind = gb_loading_kind_of(params);
     return (!kind->periodic_cell || check_periodic(params, err)) &&

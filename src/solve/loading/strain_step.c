@@ -24,7 +24,7 @@ static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *
     if (relax->stalled) {
         snprintf(text, size,
                  "guard: the relaxation stalls: residual %.2e, at best %.2e, after "
-                 "%lld evaluations and a restart, tolerance %.2e; accepted",
+                 "%lld evaluations and a restart, tolerance %.2e; kept as it is",
                  relax->residual, relax->best, (long long)relax->evaluations,
                  relax->allowed);
         return GB_GUARD_ACCEPT;
@@ -78,7 +78,7 @@ enum gb_guard_action gb_strain_step_nonaffine(struct gb_guard *guard,
         snprintf(
             text, size,
             "particle %lld jumps by %.2g d, also in a quarter of the strain step: the "
-            "packing, not the step; accepted",
+            "packing, not the step; kept as it is",
             (long long)nonaffine->particle, nonaffine->farthest);
         return GB_GUARD_ACCEPT;
     }

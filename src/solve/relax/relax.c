@@ -119,7 +119,7 @@ static bool unknown_relaxer(const char *name, struct gb_error *err)
         strncat(names, i ? ", " : "", sizeof names - strlen(names) - 1);
         strncat(names, table[i]->name, sizeof names - strlen(names) - 1);
     }
-    return gb_error_set(err, GB_ERR_INPUT, "numerics.relaxer = %s: accepted %s, auto",
+    return gb_error_set(err, GB_ERR_INPUT, "numerics.relaxer = %s: expected %s, auto",
                         name, names);
 }
 

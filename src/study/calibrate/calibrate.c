@@ -291,7 +291,7 @@ static bool fit_seeds(const struct fit *fit, struct gb_surrogate *surrogate,
            (*seeds >= SEEDS_MIN ||
             gb_error_set(err, GB_ERR_GUARD,
                          "only %zu of %zu seeds have enough runs that did not fail near "
-                         "the best fit; accepted %d at least",
+                         "the best fit; expected %d at least",
                          *seeds, problem->replicas, SEEDS_MIN));
 }
 
@@ -457,7 +457,7 @@ bool gb_calibrate_fit(const struct gb_calibrate_problem *problem,
     if (problem->data < needed || problem->replicas < SEEDS_MIN) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "%zu measured values, %zu replicas for %zu free parameters: "
-                            "accepted %zu values (%s errors) and %d replicas at least",
+                            "expected %zu values (%s errors) and %d replicas at least",
                             problem->data, problem->replicas, problem->free, needed,
                             problem->error ? "with" : "without", SEEDS_MIN);
     }

@@ -78,7 +78,7 @@ static bool read_range(struct gb_free_key *key, const char *text, struct gb_erro
     key->from = key->low;
     key->to = key->high;
     return good || gb_error_set(err, GB_ERR_INPUT,
-                                "--free %s.%s=%.80s: accepted two values that the key "
+                                "--free %s.%s=%.80s: expected two values that the key "
                                 "takes, LOW:HIGH",
                                 key->field->group, key->field->key, text);
 }
@@ -91,7 +91,7 @@ static bool take_around(struct gb_free_key *key, const struct gb_params *params,
         return gb_error_set(
             err, GB_ERR_INPUT,
             "--free %s.%s: the preset has no value above 0 to begin with; "
-            "accepted %s.%s=LOW:HIGH",
+            "expected %s.%s=LOW:HIGH",
             key->field->group, key->field->key, key->field->group, key->field->key);
     }
     key->low = fmax(key->field->min, value / 100.0);
@@ -118,7 +118,7 @@ static bool find_field(const struct gb_free_keys *keys, struct gb_free_key *key,
     return (fit && !twice) ||
            gb_error_set(
                err, GB_ERR_INPUT,
-               "--free %.80s: accepted keys that are numbers, as contact.mu, each "
+               "--free %.80s: expected keys that are numbers, as contact.mu, each "
                "once; see greenbody params",
                name);
 }
@@ -194,7 +194,7 @@ static bool make_coarse(struct gb_params *params, struct gb_error *err)
     const int64_t count = params->count / COARSE_FRACTION;
     if (count < COARSE_MIN) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "a coarse cell of %lld particles: accepted %d at least",
+                            "a coarse cell of %lld particles: expected %d at least",
                             (long long)count, (int)COARSE_MIN);
     }
     params->base.value *= cbrt((double)count / (double)params->count);

@@ -52,7 +52,7 @@ bool gb_card_path_of(enum gb_card_path *path, const char *name, struct gb_error 
         }
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "--compacts '%.40s': accepted uniaxial, isotropic", name);
+                        "--compacts '%.40s': expected uniaxial, isotropic", name);
 }
 
 void gb_card_options_init(struct gb_card_options *options)
@@ -79,7 +79,7 @@ double gb_card_direction(const struct gb_card_options *options, int index)
 static bool refuse(struct gb_error *err, const char *name, double value,
                    const char *accepted)
 {
-    return gb_error_set(err, GB_ERR_INPUT, "--%s %g: accepted %s", name, value, accepted);
+    return gb_error_set(err, GB_ERR_INPUT, "--%s %g: expected %s", name, value, accepted);
 }
 
 bool gb_card_options_check(const struct gb_card_options *options, struct gb_error *err)

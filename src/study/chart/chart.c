@@ -262,7 +262,7 @@ static bool add(GArray *settings, const struct gb_params *params, struct gb_erro
         }
     }
     if (settings->len >= SETTINGS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "--vary: accepted up to %d combinations",
+        return gb_error_set(err, GB_ERR_INPUT, "--vary: expected up to %d combinations",
                             SETTINGS_MAX);
     }
     g_array_append_val(settings, setting);
@@ -302,7 +302,7 @@ static bool add_product(GArray *settings, const struct gb_params *params,
     if (!equals || !g_strv_contains(varied, key)) {
         char *keys = g_strjoinv(", ", (char **)(void *)varied);
         gb_error_set(err, GB_ERR_INPUT,
-                     "--vary %.80s: accepted group.key=a,b,... with %s", *vary, keys);
+                     "--vary %.80s: expected group.key=a,b,... with %s", *vary, keys);
         g_free(keys);
         g_free(key);
         return false;
@@ -487,7 +487,7 @@ static bool plan_pressures(struct gb_chart_plan *plan, const char *text,
         if (!gb_params_set(&read, field, text, &why) ||
             read.unload_count > GB_CHART_PRESSURES || read.unload_count == 0) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "--at %.80s: accepted up to %d pressures, as in "
+                                "--at %.80s: expected up to %d pressures, as in "
                                 "'100 MPa; 1 GPa'",
                                 text, GB_CHART_PRESSURES);
         }
@@ -540,7 +540,7 @@ static bool check_seeds(const struct gb_params *params, int seeds, struct gb_err
     }
     return params->seed <= most ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "structure.seed = %" PRIu64 ": accepted up to %" PRIu64
+                        "structure.seed = %" PRIu64 ": expected up to %" PRIu64
                         " in a chart of %d seeds",
                         params->seed, most, seeds);
 }
@@ -668,7 +668,7 @@ static bool check_scene(const struct gb_chart_log *log, struct gb_error *err)
             gb_preset_params(preset), &log->plan->params, free_keys);
         good = field == NULL ||
                gb_error_set(err, GB_ERR_INPUT,
-                            "%.300s: the chart of a scene with another %s.%s; accepted: "
+                            "%.300s: the chart of a scene with another %s.%s; expected: "
                             "the same scene, or a new directory",
                             path, field->group, field->key);
     }
@@ -819,7 +819,7 @@ bool gb_chart_open(struct gb_chart_log *log, const char *directory,
     }
     if (!is_empty(directory)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.300s: holds other files and no chart; accepted: a new or "
+                            "%.300s: holds other files and no chart; expected: a new or "
                             "empty directory, or that of a chart",
                             directory);
     }

@@ -474,7 +474,7 @@ static const char *read_name(const char *text, char name[16])
 static bool refuse(const char *option, const char *text, const char *accepted,
                    struct gb_error *err)
 {
-    return gb_error_set(err, GB_ERR_INPUT, "%s %.80s: accepted %s", option, text,
+    return gb_error_set(err, GB_ERR_INPUT, "%s %.80s: expected %s", option, text,
                         accepted);
 }
 
@@ -603,7 +603,7 @@ static bool check_value(const struct rows *rows, double value, struct gb_error *
     if (value >= low && value < high) {
         return true;
     }
-    return gb_error_set(err, GB_ERR_INPUT, "%s = %g: accepted %g up to below %g for %s",
+    return gb_error_set(err, GB_ERR_INPUT, "%s = %g: expected %g up to below %g for %s",
                         law->variable, value, low, high, law->name);
 }
 
@@ -621,7 +621,7 @@ static bool take_row(struct rows *rows, double x, struct gb_error *err)
 static bool set_h_min(struct rows *rows, double value, struct gb_error *err)
 {
     if (!(value > 0.0 && value < 1.0)) {
-        return gb_error_set(err, GB_ERR_INPUT, "h_min = %g: accepted above 0 and below 1",
+        return gb_error_set(err, GB_ERR_INPUT, "h_min = %g: expected above 0 and below 1",
                             value);
     }
     rows->input.h_min = value;
@@ -649,7 +649,7 @@ static bool read_at(struct rows *rows, const char *text, double *x, struct gb_er
         } else if (!h_min && names_variable(law, item->name) && isnan(*x)) {
             *x = value;
         } else {
-            return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: accepted %s%s, each once",
+            return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: expected %s%s, each once",
                                 text, law->variable,
                                 law->h_min  ? " and h_min"
                                 : law->pair ? ", h or h/2R"
@@ -657,7 +657,7 @@ static bool read_at(struct rows *rows, const char *text, double *x, struct gb_er
         }
     }
     if (!isnan(*x) && !isnan(rows->input.h_min) && *x > rows->input.h_min) {
-        return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: accepted h up to h_min",
+        return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: expected h up to h_min",
                             text);
     }
     return true;
@@ -700,7 +700,7 @@ static bool read_fixed(struct rows *rows, struct gb_error *err)
     }
     return (isnan(x) && !at[1]) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--at %.80s: %s is in --range already; accepted one --at h_min=H",
+                        "--at %.80s: %s is in --range already; expected one --at h_min=H",
                         at[0], rows->law->variable);
 }
 
@@ -713,7 +713,7 @@ static bool read_range(struct rows *rows, double ends[2], int64_t *count,
         return false;
     }
     if (!names_variable(rows->law, range.name)) {
-        return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: accepted %s for law %s",
+        return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: expected %s for law %s",
                             text, rows->law->variable, rows->law->name);
     }
     ends[0] = to_variable(rows, range.name, range.from);
@@ -723,7 +723,7 @@ static bool read_range(struct rows *rows, double ends[2], int64_t *count,
         return law_points_refuse_range(text, err);
     }
     if (!isnan(rows->input.h_min) && ends[1] > rows->input.h_min) {
-        return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: accepted h up to h_min",
+        return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: expected h up to h_min",
                             text);
     }
     return true;
@@ -776,13 +776,13 @@ static bool read_path(const struct rows *rows, double *corners, int *count,
     struct law_points_path *path = g_new0(struct law_points_path, 1);
     bool good = law_points_path(path, text, err);
     if (good && path->name[0] && !names_variable(rows->law, path->name)) {
-        good = gb_error_set(err, GB_ERR_INPUT, "--path %.80s: accepted %s for law %s",
+        good = gb_error_set(err, GB_ERR_INPUT, "--path %.80s: expected %s for law %s",
                             text, rows->law->variable, rows->law->name);
     }
     for (int i = 0; good && i < path->count; i++) {
         corners[i] = to_variable(rows, path->name, path->corner[i]);
         if (!(corners[i] > -1e6 * rows->diameter && corners[i] < rows->diameter)) {
-            good = gb_error_set(err, GB_ERR_INPUT, "--path %.80s: accepted %s below %g",
+            good = gb_error_set(err, GB_ERR_INPUT, "--path %.80s: expected %s below %g",
                                 text, rows->law->variable, rows->diameter);
         }
     }
@@ -809,12 +809,12 @@ static bool check_request(const struct rows *rows, struct gb_error *err)
     const int given = (request->path ? 1 : 0) + (request->range || request->at ? 1 : 0);
     if (law->bridged && !rows->input.model->terms.bridges) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "law %s: the scene has no bridges; accepted "
+                            "law %s: the scene has no bridges; expected "
                             "contact.bridge_length below 1 d",
                             law->name);
     }
     if ((request->path && !law->follow) || given > 1 || (!law->variable && given > 0)) {
-        return gb_error_set(err, GB_ERR_INPUT, "law %s: accepted %s", law->name,
+        return gb_error_set(err, GB_ERR_INPUT, "law %s: expected %s", law->name,
                             !law->variable ? "no --at, --range or --path"
                             : law->follow  ? "--at, --range or --path alone"
                                            : "--at or --range");
@@ -866,7 +866,7 @@ static bool take_reduced(struct rows *rows, const struct gb_params *params,
         return false;
     }
     if (!has_law(&model, rows->law->normal)) {
-        return gb_error_set(err, GB_ERR_INPUT, "law %s: accepted contact.normal = %s%s",
+        return gb_error_set(err, GB_ERR_INPUT, "law %s: expected contact.normal = %s%s",
                             rows->law->name, gb_normal_law_at(rows->law->normal)->name,
                             model.normal == GB_NORMAL_HERTZ
                                 ? "; law hertz is for grains without cohesion"

@@ -83,7 +83,7 @@ static const char *cell(const struct reader *reader, enum column column)
 
 static bool refuse(const struct reader *reader, enum column column, const char *accepted)
 {
-    return gb_error_set(reader->err, GB_ERR_INPUT, "%.200s:%d: %s \"%.60s\": accepted %s",
+    return gb_error_set(reader->err, GB_ERR_INPUT, "%.200s:%d: %s \"%.60s\": expected %s",
                         reader->numbers->path, reader->row->line, names[column],
                         cell(reader, column), accepted);
 }

@@ -145,7 +145,7 @@ static bool check_words(char *const *words, struct gb_error *err)
         }
         if (!found) {
             gb_error_set(err, GB_ERR_INPUT,
-                         "--only %.60s: accepted P1, P2, P3 and %.300s, separated by "
+                         "--only %.60s: expected P1, P2, P3 and %.300s, separated by "
                          "commas",
                          words[k], names->str);
         }
@@ -264,7 +264,7 @@ static bool fill(struct gb_papers_plan *plan, struct list *list, struct gb_error
     if (good && plan->count == 0) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "no cells: this size leaves out the experiments of --only; "
-                            "accepted with --cells");
+                            "expected with --cells");
     }
     good = good && gb_ensemble_init(&plan->ensemble, plan->count, 1, err);
     if (good) {

@@ -113,7 +113,7 @@ bool gb_sensitivity_check(const struct gb_axes *axes, struct gb_error *err)
     const size_t terms = gb_surrogate_terms(axes->count, GB_SURROGATE_QUADRATIC);
     return axes->design >= terms ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "--design sobol:%zu: accepted %zu points or more for %zu keys, "
+                        "--design sobol:%zu: expected %zu points or more for %zu keys, "
                         "the terms of a quadratic",
                         axes->design, terms, axes->count);
 }

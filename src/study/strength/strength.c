@@ -53,7 +53,7 @@ static bool strength_cell_check(const struct gb_strength_options *options,
     return (options->marks.count > 0 && options->marks.every == 0) ||
            gb_error_set(
                err, GB_ERR_INPUT,
-               "--at: accepted pressures and densities, as in '50 MPa; 100 MPa'");
+               "--at: expected pressures and densities, as in '50 MPa; 100 MPa'");
 }
 
 /* Members that a worker needs. */

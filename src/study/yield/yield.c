@@ -47,7 +47,7 @@ static bool check_marks(const struct gb_keep_points *marks, struct gb_error *err
 {
     if (marks->count == 0 || marks->every > 0) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--at: accepted densities and pressures, as in 'density = "
+                            "--at: expected densities and pressures, as in 'density = "
                             "0.5; 100 MPa'");
     }
     for (int i = 0; i < marks->count; i++) {

@@ -274,7 +274,7 @@ void gb_file_commands_accept_picture(struct gb_app *app)
     } else if (*path == '\0' || g_file_test(path, G_FILE_TEST_EXISTS)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR,
                            *path == '\0' ? "file: a name that ends in .png%s"
-                                         : "%s exists: accepted a new name",
+                                         : "%s exists: expected a new name",
                            path);
         dialog->picture.row = GB_PICTURE_FORM_FILE;
     } else {

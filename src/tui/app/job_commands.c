@@ -228,7 +228,7 @@ static bool parse(struct answer *answer, const char *text, struct gb_error *err)
            (gb_units_parse(answer->parts[1], GB_DIM_TIME, &budget_s, NULL) &&
             budget_s > 0.0) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "%.40s: accepted a CPU time above 0, as in 15min",
+                        "%.40s: expected a CPU time above 0, as in 15min",
                         answer->parts[1]);
 }
 
@@ -421,7 +421,7 @@ void gb_job_commands_stability_accept(struct gb_app *app)
         start(app, answer);
     } else {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR,
-                           "%.40s: accepted pressures or densities, as 10 MPa; "
+                           "%.40s: expected pressures or densities, as 10 MPa; "
                            "density=0.5, or nothing",
                            answer);
     }

@@ -435,7 +435,7 @@ void gb_panel_params_describe(const struct gb_panel_params *panel,
     gb_field_accepted(field, accepted, sizeof accepted);
     if (panel->editing) {
         snprintf(message->text, sizeof message->text,
-                 "%s: %s.  %sEnter accepts, Esc cancels.  Accepted: %s", field->key,
+                 "%s: %s.  %sEnter accepts, Esc cancels.  Expected: %s", field->key,
                  field->meaning,
                  panel->prompt.fresh && field->choices == NULL
                      ? "Typing replaces, Left and End edit.  "

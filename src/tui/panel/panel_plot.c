@@ -105,7 +105,7 @@ static bool parse_next(struct gb_plot_ranges *ranges, const char **at,
     const char *name = equal != NULL ? name_before(*at, equal, &length) : *at;
     const int of = find(name, length);
     if (equal == NULL || name != *at || of == GB_PLOT_RANGES) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.60s: accepted are ranges %s", *at,
+        return gb_error_set(err, GB_ERR_INPUT, "%.60s: expected ranges %s", *at,
                             accepted);
     }
     const char *next = strchr(equal + 1, '=');

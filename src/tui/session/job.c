@@ -303,7 +303,7 @@ bool gb_job_stability_apply(const struct gb_stability_csv *table, size_t i,
         snprintf(text, size, "numerics.relaxer=%s", row->method);
     } else {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s is not stable here: it takes %.3g, accepted up to %.3g",
+                            "%s is not stable here: it takes %.3g, expected up to %.3g",
                             row->method, row->used, row->measured);
     }
     return gb_params_assign(params, text, err);

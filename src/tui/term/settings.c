@@ -78,7 +78,7 @@ bool gb_settings_set(struct gb_settings *settings, const char *name, const char 
         }
     }
     char *accepted = g_strjoinv(", ", (char **)row->values);
-    gb_error_set(err, GB_ERR_INPUT, "%s = %.40s: accepted: %s", name, value, accepted);
+    gb_error_set(err, GB_ERR_INPUT, "%s = %.40s: expected: %s", name, value, accepted);
     g_free(accepted);
     return false;
 }

@@ -96,7 +96,7 @@ static bool die_rest_check_time(const struct gb_die_stages *stages,
            gb_error_set(
                err, GB_ERR_GUARD,
                "the powder does not come to rest: it has moved for %.3g us, "
-               "%.0f falls through the die; accepted: a smaller numerics.safety, more contact.damping",
+               "%.0f falls through the die; try a smaller numerics.safety, more contact.damping",
                1e6 * now->stage_time * stages->scene.second_per_time, GB_REST_FALLS_MAX);
 }
 
@@ -118,11 +118,10 @@ static bool die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err
 {
     const int64_t left = gb_die_cycle_in_funnel(bed);
     return left == 0 ||
-           gb_error_set(
-               err, GB_ERR_GUARD,
-               "the funnel is clogged: %lld particle%s in it; accepted: a larger "
-               "die.outlet or smaller particles",
-               (long long)left, left == 1 ? " rests" : "s rest");
+           gb_error_set(err, GB_ERR_GUARD,
+                        "the funnel is clogged: %lld particle%s in it; try a larger "
+                        "die.outlet or smaller particles",
+                        (long long)left, left == 1 ? " rests" : "s rest");
 }
 
 /* ---- From filling to pressing ---- */

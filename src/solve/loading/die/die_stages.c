@@ -133,7 +133,7 @@ static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_b
     stages->now = stages->good;
     gb_error_set(err, GB_ERR_GUARD,
                  "relative density %.6g under the punch: the contact laws hold up to %g; "
-                 "accepted: a lower loading.until or a higher material.young",
+                 "try a lower loading.until or a higher material.young",
                  density, GB_DENSITY_MAX);
     return GB_STEP_STOPPED;
 }
