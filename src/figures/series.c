@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/text/visible.h"
 #include "many/runset.h"
 #include "measure/fit/average.h"
@@ -612,13 +612,13 @@ bool gb_series_check_drawable(const struct gb_series *series, const char *figure
 }
 
 /* Notes hold titles of presets: neither formulas nor control characters of a terminal. */
-static void add_notes(struct gb_sheet *sheet, const char *notes)
+static void add_notes(struct gb_listing *listing, const char *notes)
 {
     char **lines = g_strsplit(notes, "\n", -1);
     for (size_t i = 0; lines[i] != NULL; i++) {
         GString *line = g_string_new(NULL);
         gb_visible_add_cell(line, lines[i], false);
-        gb_sheet_comment(sheet, line->str);
+        gb_listing_comment(listing, line->str);
         g_string_free(line, TRUE);
     }
     g_strfreev(lines);
@@ -626,19 +626,19 @@ static void add_notes(struct gb_sheet *sheet, const char *notes)
 
 GString *gb_series_csv(const struct gb_series *series)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    add_notes(sheet, series->notes->str);
+    struct gb_listing *listing = gb_listing_new();
+    add_notes(listing, series->notes->str);
     for (guint k = 0; k < series->names->len; k++) {
         const char *name = g_ptr_array_index(series->names, k);
-        gb_sheet_column(sheet, "%.12g", "%s", name);
+        gb_listing_column(listing, "%.12g", "%s", name);
     }
     for (size_t i = 0; i < series->rows; i++) {
         for (guint k = 0; k < series->columns->len; k++) {
             const double *column = g_ptr_array_index(series->columns, k);
-            gb_sheet_number(sheet, column[i]);
+            gb_listing_number(listing, column[i]);
         }
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 static bool load_curves(struct gb_average_curve *curves, double **points,

@@ -5,7 +5,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/table.h"
 
 static char *path;
@@ -128,62 +128,62 @@ static void test_hostile(void)
     g_string_free(wide, TRUE);
 }
 
-static void expect_printed(const struct gb_sheet *sheet, enum gb_sheet_format format,
-                           const char *expected)
+static void expect_printed(const struct gb_listing *listing,
+                           enum gb_listing_format format, const char *expected)
 {
-    GString *text = gb_sheet_print(sheet, format);
+    GString *text = gb_listing_print(listing, format);
     g_assert_cmpstr(text->str, ==, expected);
     g_string_free(text, TRUE);
 }
 
-/* One filled sheet in every format; the reader takes its CSV. */
-static void test_sheet(void)
+/* One filled listing in every format; the reader takes its CSV. */
+static void test_listing(void)
 {
     struct gb_table *table = NULL;
     struct gb_error err = {0};
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "`%s`", "name");
-    gb_sheet_column(sheet, "%.3g", "p_%s", "MPa");
-    gb_sheet_columns(sheet, "", "x");
-    gb_sheet_columns(sheet, "%.0f", "seed");
-    gb_sheet_comment(sheet, "first\n\nsecond");
-    gb_sheet_comment(sheet, NULL);
-    gb_sheet_text(sheet, "load");
-    gb_sheet_numbers(sheet, (const double[]){0.00012345, 0.1}, 2);
-    gb_sheet_whole(sheet, UINT64_MAX);
-    gb_sheet_note(sheet, "between");
-    gb_sheet_text(sheet, "µ");
-    gb_sheet_numbers(sheet, (const double[]){INFINITY, 2e-30, NAN}, 3);
-    gb_sheet_note(sheet, "last");
-    expect_printed(sheet, GB_SHEET_CSV,
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "`%s`", "name");
+    gb_listing_column(listing, "%.3g", "p_%s", "MPa");
+    gb_listing_columns(listing, "", "x");
+    gb_listing_columns(listing, "%.0f", "seed");
+    gb_listing_comment(listing, "first\n\nsecond");
+    gb_listing_comment(listing, NULL);
+    gb_listing_text(listing, "load");
+    gb_listing_numbers(listing, (const double[]){0.00012345, 0.1}, 2);
+    gb_listing_whole(listing, UINT64_MAX);
+    gb_listing_note(listing, "between");
+    gb_listing_text(listing, "µ");
+    gb_listing_numbers(listing, (const double[]){INFINITY, 2e-30, NAN}, 3);
+    gb_listing_note(listing, "last");
+    expect_printed(listing, GB_LISTING_CSV,
                    "# first\n# second\nname,p_MPa,x,seed\n"
                    "load,0.000123,0.1,18446744073709551615\n"
                    "# between\nµ,,2e-30,\n# last\n");
     expect_printed(
-        sheet, GB_SHEET_JSON,
+        listing, GB_LISTING_JSON,
         "{\n  \"rows\" : [\n    {\n      \"name\" : \"load\",\n"
         "      \"p_MPa\" : 0.00012300000000000001,\n      \"x\" : 0.10000000000000001,\n"
         "      \"seed\" : 18446744073709551615\n    },\n    {\n"
         "      \"name\" : \"µ\",\n      \"p_MPa\" : null,\n"
         "      \"x\" : 2.0000000000000002e-30,\n      \"seed\" : null\n"
         "    }\n  ]\n}\n");
-    expect_printed(sheet, GB_SHEET_MARKDOWN,
+    expect_printed(listing, GB_LISTING_MARKDOWN,
                    "| name | p_MPa | x | seed |\n|---|---|---|---|\n"
                    "| `load` | 0.000123 | 0.1 | 18446744073709551615 |\n"
                    "| `µ` |  | 2e-30 |  |\n");
-    expect_printed(sheet, GB_SHEET_TEXT,
+    expect_printed(listing, GB_LISTING_TEXT,
                    "name     p_MPa      x                  seed\n"
                    "load  0.000123    0.1  18446744073709551615\n"
                    "µ            -  2e-30                     -\n");
-    gb_sheet_free(sheet);
+    gb_listing_free(listing);
     char *folder = g_path_get_dirname(path);
-    sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "name");
-    gb_sheet_columns(sheet, "%.17g", "x,seed");
-    gb_sheet_text(sheet, "a");
-    gb_sheet_number(sheet, 0.1);
-    gb_sheet_whole(sheet, UINT64_MAX);
-    g_assert_true(gb_sheet_store(sheet, folder, "curve.csv", &err));
+    listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "name");
+    gb_listing_columns(listing, "%.17g", "x,seed");
+    gb_listing_text(listing, "a");
+    gb_listing_number(listing, 0.1);
+    gb_listing_whole(listing, UINT64_MAX);
+    g_assert_true(gb_listing_store(listing, folder, "curve.csv", &err));
     g_assert_true(gb_table_read_whole(&table, path, "name", "seed", &err));
     g_assert_true(gb_table_column(table, "x", &err)[0] == 0.1);
     g_assert_cmpuint(gb_table_whole(table)[0], ==, UINT64_MAX);
@@ -192,30 +192,30 @@ static void test_sheet(void)
 }
 
 /* What a spreadsheet or a parser could take for the end of a cell. */
-static void test_sheet_escapes(void)
+static void test_listing_escapes(void)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "a");
-    gb_sheet_columns(sheet, "\"%s\"", "b");
-    gb_sheet_text(sheet, "1,\"2\"\n\x01");
-    gb_sheet_text(sheet, "plain");
-    gb_sheet_text(sheet, "");
-    gb_sheet_text(sheet, NULL);
-    expect_printed(sheet, GB_SHEET_CSV, "a,b\n\"1,\"\"2\"\"\n\x01\",\"plain\"\n,\n");
-    expect_printed(sheet, GB_SHEET_JSON,
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "a");
+    gb_listing_columns(listing, "\"%s\"", "b");
+    gb_listing_text(listing, "1,\"2\"\n\x01");
+    gb_listing_text(listing, "plain");
+    gb_listing_text(listing, "");
+    gb_listing_text(listing, NULL);
+    expect_printed(listing, GB_LISTING_CSV, "a,b\n\"1,\"\"2\"\"\n\x01\",\"plain\"\n,\n");
+    expect_printed(listing, GB_LISTING_JSON,
                    "{\n  \"rows\" : [\n    {\n      \"a\" : \"1,\\\"2\\\"\\n\\u0001\",\n"
                    "      \"b\" : \"plain\"\n    },\n    {\n      \"a\" : null,\n"
                    "      \"b\" : null\n    }\n  ]\n}\n");
-    gb_sheet_quote(sheet);
-    expect_printed(sheet, GB_SHEET_CSV,
+    gb_listing_quote(listing);
+    expect_printed(listing, GB_LISTING_CSV,
                    "\"a\",\"b\"\n\"1,\"\"2\"\"\n\x01\",\"plain\"\n\"\",\"\"\n");
-    gb_sheet_free(sheet);
-    sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "a");
-    expect_printed(sheet, GB_SHEET_CSV, "a\n");
-    expect_printed(sheet, GB_SHEET_JSON, "{\n  \"rows\" : []\n}\n");
-    gb_sheet_free(sheet);
-    gb_sheet_free(NULL);
+    gb_listing_free(listing);
+    listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "a");
+    expect_printed(listing, GB_LISTING_CSV, "a\n");
+    expect_printed(listing, GB_LISTING_JSON, "{\n  \"rows\" : []\n}\n");
+    gb_listing_free(listing);
+    gb_listing_free(NULL);
 }
 
 static void test_no_file(void)
@@ -238,8 +238,8 @@ int main(int argc, char **argv)
     g_test_add_func("/table/good", test_good);
     g_test_add_func("/table/whole", test_whole);
     g_test_add_func("/table/hostile", test_hostile);
-    g_test_add_func("/table/sheet", test_sheet);
-    g_test_add_func("/table/sheet-escapes", test_sheet_escapes);
+    g_test_add_func("/table/listing", test_listing);
+    g_test_add_func("/table/listing-escapes", test_listing_escapes);
     g_test_add_func("/table/no-file", test_no_file);
     const int status = g_test_run();
     g_remove(path);

@@ -79,7 +79,7 @@ static void write_moduli(const char *directory, double step, double young)
     gb_moduli_states_add(&state, &row);
     g_array_append_val(states, state);
     GString *text =
-        gb_sheet_end(gb_moduli_states_sheet(states, NULL), GB_SHEET_CSV);
+        gb_listing_end(gb_moduli_states_listing(states, NULL), GB_LISTING_CSV);
     figure_folder_write(directory, GB_MODULI_STATES_FILE, text->str);
     g_string_free(text, TRUE);
     g_array_unref(states);

@@ -2,8 +2,8 @@
 
 #include <glib.h>
 
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -43,26 +43,26 @@ static void print_groups(const struct gb_runset *set)
 }
 
 /* A row a group; each number has its standard error after it. */
-static struct gb_sheet *sheet_of(const struct gb_runset *set)
+static struct gb_listing *listing_of(const struct gb_runset *set)
 {
     const struct gb_die_summary_row *rows = gb_die_summary_table();
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%.0f", "group,beds");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%.0f", "group,beds");
     for (const struct gb_die_summary_row *row = rows; row->name; row++) {
-        gb_sheet_columns(sheet, "%.6g", row->name);
-        gb_sheet_column(sheet, "%.3g", "%s_se", row->name);
+        gb_listing_columns(listing, "%.6g", row->name);
+        gb_listing_column(listing, "%.3g", "%s_se", row->name);
     }
     for (size_t g = 0; g < set->groups; g++) {
-        gb_sheet_whole(sheet, g + 1);
-        gb_sheet_whole(sheet, gb_runset_members(set, g));
+        gb_listing_whole(listing, g + 1);
+        gb_listing_whole(listing, gb_runset_members(set, g));
         for (const struct gb_die_summary_row *row = rows; row->name; row++) {
             double mean = 0.0, error = 0.0;
             gb_die_summary_mean(row, set, g, &mean, &error);
-            gb_sheet_number(sheet, mean);
-            gb_sheet_number(sheet, error);
+            gb_listing_number(listing, mean);
+            gb_listing_number(listing, error);
         }
     }
-    return sheet;
+    return listing;
 }
 
 static bool show(char **words, gboolean csv, struct gb_error *err)
@@ -79,7 +79,8 @@ static bool show(char **words, gboolean csv, struct gb_error *err)
     if (good) {
         print_groups(&set);
         if (csv) {
-            good = gb_options_print(gb_sheet_end(sheet_of(&set), GB_SHEET_CSV), err);
+            good =
+                gb_options_print(gb_listing_end(listing_of(&set), GB_LISTING_CSV), err);
         } else {
             print_table(&set);
             good =

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -15,23 +15,23 @@
 #include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
-static void add_row(struct gb_sheet *sheet, const char *equation, const char *name,
+static void add_row(struct gb_listing *listing, const char *equation, const char *name,
                     const struct gb_fit_value *value, const char *unit)
 {
-    gb_sheet_text(sheet, equation);
-    gb_sheet_text(sheet, name);
-    gb_sheet_number(sheet, value->value);
-    gb_sheet_number(sheet, value->low);
-    gb_sheet_number(sheet, value->high);
-    gb_sheet_text(sheet, unit);
+    gb_listing_text(listing, equation);
+    gb_listing_text(listing, name);
+    gb_listing_number(listing, value->value);
+    gb_listing_number(listing, value->low);
+    gb_listing_number(listing, value->high);
+    gb_listing_text(listing, unit);
 }
 
 /* A number without an interval. */
-static void add_figure(struct gb_sheet *sheet, const char *equation, const char *name,
+static void add_figure(struct gb_listing *listing, const char *equation, const char *name,
                        double value, const char *unit)
 {
     const struct gb_fit_value row = {value, NAN, NAN, NAN};
-    add_row(sheet, equation, name, &row, unit);
+    add_row(listing, equation, name, &row, unit);
 }
 
 /* The ends of Heckel's straightest stretch, MPa. */
@@ -50,29 +50,29 @@ static bool is_heckel(const struct gb_compaction_fits *fits, size_t index)
 /* Rows equation,parameter,value,low,high,unit by ascending AICc: the parameters, the ends
  * of Heckel's stretch, rms and AICc of each equation that was fitted.  Cells are empty
  * where there is no interval, or no end of it. */
-static struct gb_sheet *sheet_of(const struct gb_compaction_fits *fits,
-                                 const struct gb_compaction_data *data)
+static struct gb_listing *listing_of(const struct gb_compaction_fits *fits,
+                                     const struct gb_compaction_data *data)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "equation,parameter");
-    gb_sheet_columns(sheet, "", "value,low,high");
-    gb_sheet_columns(sheet, "%s", "unit");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "equation,parameter");
+    gb_listing_columns(listing, "", "value,low,high");
+    gb_listing_columns(listing, "%s", "unit");
     for (size_t i = 0; i < fits->fitted; i++) {
         const char *name = fits->fit[i].equation->name;
         for (size_t k = 0; k < gb_compaction_fits_values(fits, i); k++) {
             const struct gb_compaction_value value = gb_compaction_fits_value(fits, i, k);
-            add_row(sheet, name, value.name, &value.value, value.unit);
+            add_row(listing, name, value.name, &value.value, value.unit);
         }
         if (is_heckel(fits, i)) {
             double ends[2];
             stretch_ends(fits, &data->points, ends);
-            add_figure(sheet, name, "stretch_from", ends[0], "MPa");
-            add_figure(sheet, name, "stretch_to", ends[1], "MPa");
+            add_figure(listing, name, "stretch_from", ends[0], "MPa");
+            add_figure(listing, name, "stretch_to", ends[1], "MPa");
         }
-        add_figure(sheet, name, "rms", fits->fit[i].all.rms, "1");
-        add_figure(sheet, name, "aicc", fits->fit[i].all.aicc, "1");
+        add_figure(listing, name, "rms", fits->fit[i].all.rms, "1");
+        add_figure(listing, name, "aicc", fits->fit[i].all.aicc, "1");
     }
-    return sheet;
+    return listing;
 }
 
 /* What was fitted to what. */
@@ -316,8 +316,8 @@ static bool print_fits(const struct gb_compaction_series *one, bool csv, bool js
     if (!csv && !json) {
         return gb_options_print(fit_output_text(&one->fits, &one->data), err);
     }
-    return gb_options_print(gb_sheet_end(sheet_of(&one->fits, &one->data),
-                                         json ? GB_SHEET_JSON : GB_SHEET_CSV),
+    return gb_options_print(gb_listing_end(listing_of(&one->fits, &one->data),
+                                           json ? GB_LISTING_JSON : GB_LISTING_CSV),
                             err);
 }
 

@@ -3,8 +3,8 @@
 
 #include <glib.h>
 
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -21,7 +21,7 @@ enum { VALUES_MAX = 64 };
 
 /* The table, and the value of the varied key, or NULL. */
 struct filling {
-    struct gb_sheet *sheet;
+    struct gb_listing *listing;
     const char *varied;
 };
 
@@ -30,12 +30,12 @@ static bool add_row(const double *value, int columns, void *data, struct gb_erro
     const struct filling *filling = data;
     (void)err;
     if (filling->varied != NULL) {
-        gb_sheet_text(filling->sheet, filling->varied);
+        gb_listing_text(filling->listing, filling->varied);
     }
     for (int k = 0; k < columns; k++) { /* a time step may be infinite: not missing */
         char number[GB_NUMBER_MAX];
         g_snprintf(number, sizeof number, "%.17g", value[k]);
-        gb_sheet_text(filling->sheet, number);
+        gb_listing_text(filling->listing, number);
     }
     return true;
 }
@@ -70,7 +70,7 @@ static bool set_varied(struct gb_params *scene, const struct variation *variatio
 }
 
 /* All scenes are checked before the first row. */
-static bool fill_scenes(struct gb_sheet *sheet, const struct request *request,
+static bool fill_scenes(struct gb_listing *listing, const struct request *request,
                         const struct gb_params *params, const struct variation *variation,
                         struct gb_error *err)
 {
@@ -81,11 +81,11 @@ static bool fill_scenes(struct gb_sheet *sheet, const struct request *request,
             return false;
         }
     }
-    gb_sheet_columns(sheet, "%s", variation->pair[0]);
-    gb_sheet_columns(sheet, "%.17g", request->rows.law->header);
+    gb_listing_columns(listing, "%s", variation->pair[0]);
+    gb_listing_columns(listing, "%.17g", request->rows.law->header);
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
-        struct filling filling = {sheet, variation->values[i]};
+        struct filling filling = {listing, variation->values[i]};
         if (!set_varied(&scene, variation, i, err) ||
             !gb_law_table_compute(&request->rows, &scene, add_row, &filling, err)) {
             return false;
@@ -94,28 +94,28 @@ static bool fill_scenes(struct gb_sheet *sheet, const struct request *request,
     return true;
 }
 
-static bool fill_varied(struct gb_sheet *sheet, const struct request *request,
+static bool fill_varied(struct gb_listing *listing, const struct request *request,
                         const struct gb_params *params, struct gb_error *err)
 {
     struct variation variation;
     const bool good = parse_variation(&variation, request->vary, err) &&
-                      fill_scenes(sheet, request, params, &variation, err);
+                      fill_scenes(listing, request, params, &variation, err);
     g_strfreev(variation.values);
     g_strfreev(variation.pair);
     return good;
 }
 
-static bool fill(struct gb_sheet *sheet, const struct request *request,
+static bool fill(struct gb_listing *listing, const struct request *request,
                  const struct gb_params *params, struct gb_error *err)
 {
     if (request->vary) {
-        return fill_varied(sheet, request, params, err);
+        return fill_varied(listing, request, params, err);
     }
     if (!gb_law_table_check(&request->rows, params, err)) {
         return false;
     }
-    struct filling filling = {sheet, NULL};
-    gb_sheet_columns(sheet, "%.17g", request->rows.law->header);
+    struct filling filling = {listing, NULL};
+    gb_listing_columns(listing, "%.17g", request->rows.law->header);
     return gb_law_table_compute(&request->rows, params, add_row, &filling, err);
 }
 
@@ -163,10 +163,10 @@ static bool run(struct request *request, const char *lattice, char **words, char
     if (!gb_options_preset(&preset, words + 1, sets, GB_OPTIONS_PRESET_OPTIONAL, err)) {
         return false;
     }
-    struct gb_sheet *sheet = gb_sheet_new();
-    const bool good = fill(sheet, request, gb_preset_params(preset), err) &&
-                      gb_options_print(gb_sheet_print(sheet, GB_SHEET_CSV), err);
-    gb_sheet_free(sheet);
+    struct gb_listing *listing = gb_listing_new();
+    const bool good = fill(listing, request, gb_preset_params(preset), err) &&
+                      gb_options_print(gb_listing_print(listing, GB_LISTING_CSV), err);
+    gb_listing_free(listing);
     gb_preset_destroy(preset);
     return good;
 }

@@ -221,8 +221,8 @@ static bool moduli_folder_write(const struct moduli_folder *folder, const GArray
     g_array_append_vals(all, states->data, states->len);
     gb_moduli_states_sort(all);
     char *comment = g_strdup_printf("greenbody %s\n%s", GB_VERSION, folder->command);
-    const bool good = gb_sheet_store(gb_moduli_states_sheet(all, comment), folder->path,
-                                     GB_MODULI_STATES_FILE, err);
+    const bool good = gb_listing_store(gb_moduli_states_listing(all, comment),
+                                       folder->path, GB_MODULI_STATES_FILE, err);
     g_free(comment);
     g_array_free(all, TRUE);
     return good;
@@ -346,8 +346,8 @@ static bool is_new(void *data, int64_t step)
 static void print_states(const struct request *request, const GArray *states)
 {
     if (request->csv || request->json) {
-        gb_options_print(gb_sheet_end(gb_moduli_states_sheet(states, NULL),
-                                      request->json ? GB_SHEET_JSON : GB_SHEET_CSV),
+        gb_options_print(gb_listing_end(gb_moduli_states_listing(states, NULL),
+                                        request->json ? GB_LISTING_JSON : GB_LISTING_CSV),
                          NULL); /* main reports an error of stdout */
         return;
     }

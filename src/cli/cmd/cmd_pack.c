@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "base/alloc.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -58,7 +58,7 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
 }
 
 /* The mean over the cells, as a comment below their rows. */
-static void add_mean(struct gb_sheet *sheet, const struct gb_model *model,
+static void add_mean(struct gb_listing *listing, const struct gb_model *model,
                      const double *count, int cells)
 {
     double mean = NAN;
@@ -78,7 +78,7 @@ static void add_mean(struct gb_sheet *sheet, const struct gb_model *model,
         g_string_append_printf(text, "%.5g x ", model->edges[1]);
     }
     g_string_append_printf(text, "%.5g d", model->edges[2]);
-    gb_sheet_note(sheet, text->str);
+    gb_listing_note(listing, text->str);
     g_string_free(text, TRUE);
 }
 
@@ -89,12 +89,12 @@ static bool pack_percolation(const struct gb_params *params, int cells,
     struct gb_params scene = *params;
     struct gb_model model;
     double *count = g_new(double, (gsize)cells);
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet,
-                     "particles at which the growing cluster joins its images along "
-                     "all axes, P1 section III");
-    gb_sheet_columns(sheet, "%.0f", "seed,particles");
-    gb_sheet_columns(sheet, "%.6f", "density");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing,
+                       "particles at which the growing cluster joins its images along "
+                       "all axes, P1 section III");
+    gb_listing_columns(listing, "%.0f", "seed,particles");
+    gb_listing_columns(listing, "%.6f", "density");
     bool good = gb_seed_matters(params) ||
                 gb_error_set(err, GB_ERR_INPUT,
                              "--percolation: expected structure.kind = grown and no "
@@ -103,16 +103,16 @@ static bool pack_percolation(const struct gb_params *params, int cells,
         scene.seed = params->seed + (uint64_t)k;
         good = find(&scene, &model, &count[k], err);
         if (good) {
-            gb_sheet_whole(sheet, model.seed.value);
-            gb_sheet_number(sheet, count[k]);
-            gb_sheet_number(sheet, density_of(&model, count[k]));
+            gb_listing_whole(listing, model.seed.value);
+            gb_listing_number(listing, count[k]);
+            gb_listing_number(listing, density_of(&model, count[k]));
         }
     }
     if (good) {
-        add_mean(sheet, &model, count, cells);
-        good = gb_options_print(gb_sheet_print(sheet, GB_SHEET_CSV), err);
+        add_mean(listing, &model, count, cells);
+        good = gb_options_print(gb_listing_print(listing, GB_LISTING_CSV), err);
     }
-    gb_sheet_free(sheet);
+    gb_listing_free(listing);
     g_free(count);
     return good;
 }

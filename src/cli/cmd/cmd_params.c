@@ -1,6 +1,6 @@
 #include <stdio.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -21,30 +21,30 @@ static void write_unit(const struct gb_field *field, char *out, size_t size)
     }
 }
 
-static struct gb_sheet *list_keys(void)
+static struct gb_listing *list_keys(void)
 {
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "`%s`", "key");
-    gb_sheet_columns(sheet, "%s", "default,range,unit,meaning,source");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "`%s`", "key");
+    gb_listing_columns(listing, "%s", "default,range,unit,meaning,source");
     for (size_t i = 0; i < count; i++) {
         char text[CELL];
         char *key = g_strdup_printf("%s.%s", field[i].group, field[i].key);
-        gb_sheet_text(sheet, key);
-        gb_sheet_text(sheet, *field[i].fallback ? field[i].fallback : "-");
-        gb_sheet_text(sheet, gb_params_accepted(&field[i], text, sizeof text));
+        gb_listing_text(listing, key);
+        gb_listing_text(listing, *field[i].fallback ? field[i].fallback : "-");
+        gb_listing_text(listing, gb_params_accepted(&field[i], text, sizeof text));
         write_unit(&field[i], text, sizeof text);
-        gb_sheet_text(sheet, text);
-        gb_sheet_text(sheet, field[i].meaning);
-        gb_sheet_text(sheet, field[i].source);
+        gb_listing_text(listing, text);
+        gb_listing_text(listing, field[i].meaning);
+        gb_listing_text(listing, field[i].source);
         g_free(key);
     }
-    return sheet;
+    return listing;
 }
 
 /* The values of a material, those that are guessed, and its file; why it cannot be read. */
-static void add_material(struct gb_sheet *sheet, const char *name)
+static void add_material(struct gb_listing *listing, const char *name)
 {
     static const char *const keys[] = {"young", "poisson", "density",
                                        "d0",    "epsilon", "yield"};
@@ -54,32 +54,33 @@ static void add_material(struct gb_sheet *sheet, const char *name)
     const bool good = gb_material_apply(&params, name, &err);
     char *path = good ? gb_material_path(name, NULL) : g_strdup(err.text);
     char *guessed = good ? gb_material_guessed(path) : g_strdup("");
-    gb_sheet_text(sheet, name);
+    gb_listing_text(listing, name);
     for (size_t k = 0; k < G_N_ELEMENTS(keys); k++) {
         char text[GB_PARAMS_VALUE_MAX] = "-";
         if (good) {
             gb_params_format(&params, gb_params_find(GB_MATERIAL_GROUP, keys[k]), text,
                              sizeof text);
         }
-        gb_sheet_text(sheet, text);
+        gb_listing_text(listing, text);
     }
-    gb_sheet_text(sheet, *guessed != '\0' ? guessed : "-");
-    gb_sheet_text(sheet, path);
+    gb_listing_text(listing, *guessed != '\0' ? guessed : "-");
+    gb_listing_text(listing, path);
     g_free(guessed);
     g_free(path);
 }
 
-static struct gb_sheet *list_materials(void)
+static struct gb_listing *list_materials(void)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "`%s`", "material");
-    gb_sheet_columns(sheet, "%s", "young,poisson,density,d0,epsilon,yield,guessed,file");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "`%s`", "material");
+    gb_listing_columns(listing, "%s",
+                       "young,poisson,density,d0,epsilon,yield,guessed,file");
     char **names = gb_preset_folders_list_materials();
     for (int i = 0; names[i] != NULL; i++) {
-        add_material(sheet, names[i]);
+        add_material(listing, names[i]);
     }
     g_strfreev(names);
-    return sheet;
+    return listing;
 }
 
 int gb_cmd_params(int argc, char **argv)
@@ -112,8 +113,8 @@ int gb_cmd_params(int argc, char **argv)
     }
     g_strfreev(words);
     const bool good =
-        gb_options_print(gb_sheet_end(materials ? list_materials() : list_keys(),
-                                      markdown ? GB_SHEET_MARKDOWN : GB_SHEET_TEXT),
+        gb_options_print(gb_listing_end(materials ? list_materials() : list_keys(),
+                                        markdown ? GB_LISTING_MARKDOWN : GB_LISTING_TEXT),
                          &err);
     return good ? 0 : gb_options_fail(&err);
 }

@@ -6,7 +6,7 @@
 #include <glib.h>
 
 #include "base/file.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -16,15 +16,15 @@
 #include "scene/tolerances.h"
 #include "study/stability/stability.h"
 
-static void add_row(struct gb_sheet *sheet, const struct gb_stability_row *row)
+static void add_row(struct gb_listing *listing, const struct gb_stability_row *row)
 {
     const double number[] = {
         row->damping, row->exact, row->theory, row->measured, row->measured / row->theory,
         row->used};
-    gb_sheet_text(sheet, row->method);
-    gb_sheet_text(sheet, row->scene);
-    gb_sheet_text(sheet, row->law);
-    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+    gb_listing_text(listing, row->method);
+    gb_listing_text(listing, row->scene);
+    gb_listing_text(listing, row->law);
+    gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
 }
 
 static void print_row(const struct gb_stability_row *row)
@@ -39,7 +39,7 @@ static void print_row(const struct gb_stability_row *row)
                      row->measured, row->measured / row->theory, row->used);
 }
 
-static bool measure(struct gb_sheet *sheet, struct gb_error *err)
+static bool measure(struct gb_listing *listing, struct gb_error *err)
 {
     gb_visible_put(
         stdout,
@@ -51,19 +51,19 @@ static bool measure(struct gb_sheet *sheet, struct gb_error *err)
             return false;
         }
         print_row(&row);
-        add_row(sheet, &row);
+        add_row(listing, &row);
         fflush(stdout);
     }
     return true;
 }
 
-static bool write_sheet(const struct gb_sheet *sheet, const char *directory,
-                        struct gb_error *err)
+static bool write_listing(const struct gb_listing *listing, const char *directory,
+                          struct gb_error *err)
 {
     if (directory == NULL) {
         return true;
     }
-    GString *csv = gb_sheet_print(sheet, GB_SHEET_CSV);
+    GString *csv = gb_listing_print(listing, GB_LISTING_CSV);
     char *path = g_build_filename(directory, "stability.csv", NULL);
     const bool good =
         (g_mkdir_with_parents(directory, 0777) == 0 ||
@@ -77,14 +77,14 @@ static bool write_sheet(const struct gb_sheet *sheet, const char *directory,
 /* Each method at each packing of the study. */
 static bool perform_study(const char *directory, struct gb_error *err)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, "greenbody " GB_VERSION "\n"
-                            "steps in sqrt(m/(E d)), of steepest in 1/(E d); ratio: "
-                            "measured / theory");
-    gb_sheet_columns(sheet, "%s", "method,scene,law");
-    gb_sheet_columns(sheet, "%.8g", "damping,closed_form,theory,measured,ratio,used");
-    const bool good = measure(sheet, err) && write_sheet(sheet, directory, err);
-    gb_sheet_free(sheet);
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, "greenbody " GB_VERSION "\n"
+                                "steps in sqrt(m/(E d)), of steepest in 1/(E d); ratio: "
+                                "measured / theory");
+    gb_listing_columns(listing, "%s", "method,scene,law");
+    gb_listing_columns(listing, "%.8g", "damping,closed_form,theory,measured,ratio,used");
+    const bool good = measure(listing, err) && write_listing(listing, directory, err);
+    gb_listing_free(listing);
     return good;
 }
 
@@ -93,7 +93,7 @@ static bool perform_study(const char *directory, struct gb_error *err)
 struct scene {
     char *directory, *at, *command;
     gboolean quiet;
-    struct gb_sheet *sheet;
+    struct gb_listing *listing;
     int rows, rows_most, missed;
     char method[16];    /* the least margin so far: its method ... */
     double least, step; /* ... measured / used, and the step that was measured */
@@ -123,8 +123,8 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         gb_visible_line(stderr, "%d of %d states: %s, p %.4g MPa", scene->rows,
                         scene->rows_most, row->method, 1e-6 * row->p_pa);
     }
-    gb_stability_add(scene->sheet, row);
-    return write_sheet(scene->sheet, scene->directory, err);
+    gb_stability_add(scene->listing, row);
+    return write_listing(scene->listing, scene->directory, err);
 }
 
 static void say_skipped(void *data, double p_pa, const char *why)
@@ -170,7 +170,7 @@ static bool perform_scene(struct scene *scene, char **words, char **sets,
         const struct gb_params *params = gb_preset_params(preset);
         char *comment = g_strdup_printf("greenbody " GB_VERSION "\npreset: %s\n%s",
                                         params->title, scene->command);
-        scene->sheet = gb_stability_table(comment);
+        scene->listing = gb_stability_table(comment);
         g_free(comment);
         int first = 0;
         scene->rows_most = gb_stability_methods(params, &first) *
@@ -185,7 +185,7 @@ static bool perform_scene(struct scene *scene, char **words, char **sets,
                                 "the run has ended before %d of the %d points asked for",
                                 scene->missed, points.count);
         }
-        gb_sheet_free(scene->sheet);
+        gb_listing_free(scene->listing);
     }
     gb_preset_destroy(preset);
     return good;

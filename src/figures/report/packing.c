@@ -8,7 +8,7 @@
 #include <json-glib/json-glib.h>
 
 #include "base/file.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "io/preset.h"
 #include "io/status/status_json.h"
 
@@ -35,7 +35,7 @@ static bool is_bed(const struct gb_packing *packing)
     return packing->state->die_radius > 0.0;
 }
 
-static struct gb_sheet *packing_sheet(const struct gb_packing *packing)
+static struct gb_listing *packing_listing(const struct gb_packing *packing)
 {
     const struct gb_state *state = packing->state;
     GString *text = head_of(state->preset);
@@ -51,33 +51,34 @@ static struct gb_sheet *packing_sheet(const struct gb_packing *packing)
         append_number(text, state->tilt[1], ' ');
         append_number(text, state->tilt[2], '\n');
     }
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, text->str);
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, text->str);
     g_string_free(text, TRUE);
-    gb_sheet_columns(sheet, "%.17g",
-                     is_bed(packing) ? "x_d,y_d,z_d,radius_d" : "x_d,y_d,z_d");
+    gb_listing_columns(listing, "%.17g",
+                       is_bed(packing) ? "x_d,y_d,z_d,radius_d" : "x_d,y_d,z_d");
     for (int64_t i = 0; i < state->count; i++) {
-        gb_sheet_numbers(sheet, &state->position[3 * i], 3);
+        gb_listing_numbers(listing, &state->position[3 * i], 3);
         if (is_bed(packing)) {
-            gb_sheet_number(sheet, state->radius[i]);
+            gb_listing_number(listing, state->radius[i]);
         }
     }
-    return sheet;
+    return listing;
 }
 
-static struct gb_sheet *g_sheet(const struct gb_packing *packing)
+static struct gb_listing *g_listing(const struct gb_packing *packing)
 {
     GString *text = head_of(packing->state->preset);
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, text->str);
-    gb_sheet_comment(sheet, "radial distribution function; r_d is the middle of a bin");
-    gb_sheet_columns(sheet, "%.17g", "r_d,g");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, text->str);
+    gb_listing_comment(listing,
+                       "radial distribution function; r_d is the middle of a bin");
+    gb_listing_columns(listing, "%.17g", "r_d,g");
     for (int k = 0; k < packing->bins; k++) {
-        gb_sheet_number(sheet, (k + 0.5) * packing->r_max / packing->bins);
-        gb_sheet_number(sheet, packing->g[k]);
+        gb_listing_number(listing, (k + 0.5) * packing->r_max / packing->bins);
+        gb_listing_number(listing, packing->g[k]);
     }
     g_string_free(text, TRUE);
-    return sheet;
+    return listing;
 }
 
 static void add_number(JsonBuilder *builder, const char *name, double value)
@@ -178,9 +179,9 @@ bool gb_packing_write(const struct gb_packing *packing, const char *directory,
     char *state = g_build_filename(directory, "state.h5", NULL);
     const bool written =
         write_preset(packing, directory, err) &&
-        gb_sheet_store(packing_sheet(packing), directory, "packing.csv", err) &&
+        gb_listing_store(packing_listing(packing), directory, "packing.csv", err) &&
         (is_bed(packing) ||
-         (gb_sheet_store(g_sheet(packing), directory, "g.csv", err) &&
+         (gb_listing_store(g_listing(packing), directory, "g.csv", err) &&
           write_file(directory, "structure.json", structure_text(packing), err))) &&
         gb_state_write(packing->state, NULL, state, err);
     g_free(state);

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "figures/report/report.h"
 #include "figures/series.h"
 #include "io/measured.h"
@@ -62,21 +62,21 @@ static void put_mean_cell(struct gb_report_table *table, double mean, double err
 }
 
 /* A table of the page as one for spreadsheets: everything in quotes, no markup. */
-static struct gb_sheet *sheet_of(const struct gb_report_table *table)
+static struct gb_listing *listing_of(const struct gb_report_table *table)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_quote(sheet);
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_quote(listing);
     for (guint k = 0; k < table->columns; k++) {
-        gb_sheet_column(sheet, "%s", "%s", table->heads[k]);
+        gb_listing_column(listing, "%s", "%s", table->heads[k]);
     }
     for (guint k = 0; k < table->cells->len; k++) {
         const char *cell = g_ptr_array_index(table->cells, k);
         char *plain = (int)(k % table->columns) == table->markup ? gb_page_plain(cell)
                                                                  : g_strdup(cell);
-        gb_sheet_text(sheet, plain);
+        gb_listing_text(listing, plain);
         g_free(plain);
     }
-    return sheet;
+    return listing;
 }
 
 bool gb_report_tables_end(struct gb_report *report, struct gb_report_table *table,
@@ -88,7 +88,7 @@ bool gb_report_tables_end(struct gb_report *report, struct gb_report_table *tabl
     }
     char *numbered = g_strdup_printf("Table %d. %s", ++report->tables, caption);
     char *file = g_strdup_printf("tables/%s.csv", name);
-    const bool good = gb_sheet_store(sheet_of(table), report->folder, file, err);
+    const bool good = gb_listing_store(listing_of(table), report->folder, file, err);
     const struct gb_page_table_content content = {numbered, file, table->heads,
                                                   table->columns, table->markup};
     gb_page_table(&report->page, &content, table->cells);

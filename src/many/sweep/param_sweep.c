@@ -12,7 +12,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "greenbody/snapshot.h"
@@ -293,19 +293,20 @@ size_t gb_param_sweep_shortfalls(const struct gb_ensemble *ensemble)
 }
 
 /* The varied values of a point as cells; numbers in the unit that the column names. */
-static void add_values(struct gb_sheet *sheet, const struct gb_axes *axes, size_t point)
+static void add_values(struct gb_listing *listing, const struct gb_axes *axes,
+                       size_t point)
 {
     for (size_t i = 0; i < axes->count; i++) {
         char cell[GB_PARAMS_VALUE_MAX];
         GString *text = g_string_new(NULL);
         gb_axes_cell(axes, point, i, cell, sizeof cell);
         gb_visible_add_cell(text, cell, true);
-        gb_sheet_text(sheet, text->str);
+        gb_listing_text(listing, text->str);
         g_string_free(text, TRUE);
     }
 }
 
-static void add_rows(struct gb_sheet *sheet, const struct gb_sweep_readings *readings,
+static void add_rows(struct gb_listing *listing, const struct gb_sweep_readings *readings,
                      const struct gb_axes *axes, size_t point,
                      const struct gb_sweep_table_pressures *at)
 {
@@ -319,27 +320,27 @@ static void add_rows(struct gb_sheet *sheet, const struct gb_sweep_readings *rea
             if (runs == 0) {
                 continue;
             }
-            gb_sheet_whole(sheet, point + 1);
-            add_values(sheet, axes, point);
-            gb_sheet_text(sheet, gb_param_sweep_branch(b));
-            gb_sheet_number(sheet, at->pa[p] / 1e6);
-            gb_sheet_whole(sheet, runs);
+            gb_listing_whole(listing, point + 1);
+            add_values(listing, axes, point);
+            gb_listing_text(listing, gb_param_sweep_branch(b));
+            gb_listing_number(listing, at->pa[p] / 1e6);
+            gb_listing_whole(listing, runs);
             for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
                 gb_average_values(gb_param_sweep_readings_at(readings, b, p, q),
                                   readings->runs, &mean, &error);
-                gb_sheet_number(sheet, mean);
-                gb_sheet_number(sheet, error);
+                gb_listing_number(listing, mean);
+                gb_listing_number(listing, error);
             }
         }
     }
 }
 
-static struct gb_sheet *new_means(const struct gb_axes *axes,
-                                  const struct gb_ensemble *ensemble)
+static struct gb_listing *new_means(const struct gb_axes *axes,
+                                    const struct gb_ensemble *ensemble)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(
-        sheet,
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(
+        listing,
         "greenbody " GB_VERSION "\n"
         "means over the runs of a point and their standard errors (se_); load: where "
         "the mean\npressure over the compressed axes first reaches p_MPa; unload: "
@@ -350,45 +351,45 @@ static struct gb_sheet *new_means(const struct gb_axes *axes,
             g_strdup_printf("runs that missed a goal or have points that are not "
                             "in equilibrium: %zu (runs.csv)",
                             shortfalls);
-        gb_sheet_comment(sheet, note);
+        gb_listing_comment(listing, note);
         g_free(note);
     }
-    gb_sheet_columns(sheet, "%.0f", "point");
+    gb_listing_columns(listing, "%.0f", "point");
     for (size_t i = 0; i < axes->count; i++) {
         char *name = gb_axes_column(axes, i);
-        gb_sheet_column(sheet, "%s", "%s", name);
+        gb_listing_column(listing, "%s", "%s", name);
         g_free(name);
     }
-    gb_sheet_columns(sheet, "%s", "branch");
-    gb_sheet_columns(sheet, "%.12g", "p_MPa,runs");
+    gb_listing_columns(listing, "%s", "branch");
+    gb_listing_columns(listing, "%.12g", "p_MPa,runs");
     for (int q = 0; q < GB_READING_QUANTITIES; q++) {
         const char *name = gb_reading_name((enum gb_reading_quantity)q);
-        gb_sheet_columns(sheet, "%.12g", name);
-        gb_sheet_column(sheet, "%.12g", "se_%s", name);
+        gb_listing_columns(listing, "%.12g", name);
+        gb_listing_column(listing, "%.12g", "se_%s", name);
     }
-    return sheet;
+    return listing;
 }
 
 GString *gb_param_sweep_means(struct gb_ensemble *ensemble, const struct gb_axes *axes,
                               const struct gb_sweep_table_pressures *at)
 {
-    struct gb_sheet *sheet = new_means(axes, ensemble);
+    struct gb_listing *listing = new_means(axes, ensemble);
     for (size_t point = 0; point < ensemble->points; point++) {
         struct gb_sweep_readings readings;
         gb_param_sweep_readings_init(&readings, ensemble, point, at);
-        add_rows(sheet, &readings, axes, point, at);
+        add_rows(listing, &readings, axes, point, at);
         gb_param_sweep_readings_finish(&readings);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 GString *gb_param_sweep_runs(const struct gb_ensemble *ensemble)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "run");
-    gb_sheet_columns(sheet, "%.0f", "point,seed");
-    gb_sheet_columns(sheet, "%s", "state");
-    gb_sheet_columns(sheet, "\"%s\"", "error");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "run");
+    gb_listing_columns(listing, "%.0f", "point,seed");
+    gb_listing_columns(listing, "%s", "state");
+    gb_listing_columns(listing, "\"%s\"", "error");
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         const struct gb_ensemble_run *run = &ensemble->run[i];
         const bool used = run->replica < gb_ensemble_used(ensemble, run->point);
@@ -398,18 +399,19 @@ GString *gb_param_sweep_runs(const struct gb_ensemble *ensemble)
         const bool failed = run->error.code != GB_OK;
         char *name = g_path_get_basename(run->directory);
         char *shortfall = sweep_shortfall_text(run);
-        gb_sheet_text(sheet, name);
-        gb_sheet_whole(sheet, run->point + 1);
-        gb_sheet_whole(sheet, run->params.seed);
-        gb_sheet_text(sheet, !run->ended ? "missing"
-                             : failed    ? "failed"
-                             : used      ? "done"
-                                         : "spare");
-        gb_sheet_text(sheet, shortfall == NULL && failed ? run->error.text : shortfall);
+        gb_listing_text(listing, name);
+        gb_listing_whole(listing, run->point + 1);
+        gb_listing_whole(listing, run->params.seed);
+        gb_listing_text(listing, !run->ended ? "missing"
+                                 : failed    ? "failed"
+                                 : used      ? "done"
+                                             : "spare");
+        gb_listing_text(listing,
+                        shortfall == NULL && failed ? run->error.text : shortfall);
         g_free(shortfall);
         g_free(name);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* --- the sweep ------------------------------------------------------------------------ */

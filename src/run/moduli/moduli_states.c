@@ -37,35 +37,35 @@ static const struct gb_moduli_state *state_at(const GArray *states, guint k)
     return &g_array_index(states, struct gb_moduli_state, k);
 }
 
-struct gb_sheet *gb_moduli_states_sheet(const GArray *states, const char *comment)
+struct gb_listing *gb_moduli_states_listing(const GArray *states, const char *comment)
 {
     bool errors = false;
     for (guint s = 0; s < states->len; s++) {
         errors = errors || state_at(states, s)->count + state_at(states, s)->missing > 1;
     }
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
     for (int k = 0; k < COLUMNS; k++) {
-        gb_sheet_columns(sheet, "%.10g", gb_moduli_table_name(k));
+        gb_listing_columns(listing, "%.10g", gb_moduli_table_name(k));
     }
-    gb_sheet_columns(sheet, "%.10g", errors ? "replicas,missing" : "replicas");
+    gb_listing_columns(listing, "%.10g", errors ? "replicas,missing" : "replicas");
     for (int k = 0; k < COLUMNS && errors; k++) {
-        gb_sheet_column(sheet, "%.10g", "error_%s", gb_moduli_table_name(k));
+        gb_listing_column(listing, "%.10g", "error_%s", gb_moduli_table_name(k));
     }
     for (guint s = 0; s < states->len; s++) {
         const struct gb_moduli_state *state = state_at(states, s);
         for (int k = 0; k < COLUMNS; k++) {
-            gb_sheet_number(sheet, gb_moduli_states_mean(state, k));
+            gb_listing_number(listing, gb_moduli_states_mean(state, k));
         }
-        gb_sheet_number(sheet, state->count);
+        gb_listing_number(listing, state->count);
         if (errors) {
-            gb_sheet_number(sheet, state->missing);
+            gb_listing_number(listing, state->missing);
         }
         for (int k = 0; k < COLUMNS && errors; k++) {
-            gb_sheet_number(sheet, gb_moduli_states_error(state, k));
+            gb_listing_number(listing, gb_moduli_states_error(state, k));
         }
     }
-    return sheet;
+    return listing;
 }
 
 static bool read_columns(const struct gb_table *table, const double *column[COLUMNS],

@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "run/moduli/moduli_table.h"
 
 /* Moduli of the states of a run: means over replicas with standard errors, and the table
@@ -30,7 +30,7 @@ double gb_moduli_states_error(const struct gb_moduli_state *state, int column);
 /* A row per state (struct gb_moduli_state): the columns of the table and `replicas`; where
  * any state has replicas, also `missing`, and error_* of each column.  comment: lines above
  * the table; NULL: none. */
-struct gb_sheet *gb_moduli_states_sheet(const GArray *states, const char *comment);
+struct gb_listing *gb_moduli_states_listing(const GArray *states, const char *comment);
 
 /* Adds the states of such a table in a file.  Errors: GB_ERR_INPUT for another table, or
  * for one of replicas. */

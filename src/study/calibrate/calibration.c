@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "base/units.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
@@ -294,18 +294,18 @@ static bool write_table(const struct gb_calibration *calibration, const char *na
     return good;
 }
 
-static struct gb_sheet *new_rounds(const struct gb_calibration *calibration)
+static struct gb_listing *new_rounds(const struct gb_calibration *calibration)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
+    struct gb_listing *listing = gb_listing_new();
     char name[96];
-    gb_sheet_columns(sheet, "%s", "cells");
-    gb_sheet_columns(sheet, "%.0f", "round");
+    gb_listing_columns(listing, "%s", "cells");
+    gb_listing_columns(listing, "%.0f", "round");
     for (size_t k = 0; k < calibration->keys.count; k++) {
         gb_calibration_key_name(&calibration->keys.key[k], name, sizeof name);
-        gb_sheet_column(sheet, "%.5g", "%s", name);
-        gb_sheet_column(sheet, "%.3g", "within_%s", name);
+        gb_listing_column(listing, "%.5g", "%s", name);
+        gb_listing_column(listing, "%.3g", "within_%s", name);
     }
-    return sheet;
+    return listing;
 }
 
 /* A row of rounds.csv, for other programs that follow the fit; the fit continues when it
@@ -314,15 +314,15 @@ static void add_round(enum gb_calibrate_stage stage, int round, const double *be
                       const double *half_width, void *context)
 {
     struct gb_calibration *calibration = context;
-    struct gb_sheet *sheet = calibration->rounds;
-    gb_sheet_text(sheet, stage == GB_CALIBRATE_COARSE ? "small" : "full");
-    gb_sheet_number(sheet, round);
+    struct gb_listing *listing = calibration->rounds;
+    gb_listing_text(listing, stage == GB_CALIBRATE_COARSE ? "small" : "full");
+    gb_listing_number(listing, round);
     for (size_t k = 0; k < calibration->keys.count; k++) {
-        gb_sheet_number(sheet, best[k]);
-        gb_sheet_number(sheet, half_width[k]);
+        gb_listing_number(listing, best[k]);
+        gb_listing_number(listing, half_width[k]);
     }
-    (void)write_table(calibration, "rounds.csv", gb_sheet_print(sheet, GB_SHEET_CSV),
-                      NULL);
+    (void)write_table(calibration, "rounds.csv",
+                      gb_listing_print(listing, GB_LISTING_CSV), NULL);
     if (calibration->progress != NULL) {
         calibration->progress(calibration, stage, round, best, half_width,
                               calibration->data);
@@ -372,7 +372,7 @@ void gb_calibration_finish(struct gb_calibration *calibration)
 {
     gb_calibrate_finish(&calibration->result);
     gb_labdata_finish(&calibration->lab);
-    gb_sheet_free(calibration->rounds);
+    gb_listing_free(calibration->rounds);
     calibration->rounds = NULL;
 }
 
@@ -394,56 +394,58 @@ static GString *parameter_table(const struct gb_calibration *calibration)
     const struct gb_calibrate_result *result = &calibration->result;
     const size_t n = calibration->keys.count;
     char name[NAME_MAX_BYTES];
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, "best fit, standard error and 95 % interval; SI, or the "
-                            "multiple that the preset gives; open (1): the interval ends "
-                            "at that limit of the range");
-    gb_sheet_columns(sheet, "%s", "key,unit");
-    gb_sheet_columns(sheet, "%.8g", "value,error,low_95,high_95");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing,
+                       "best fit, standard error and 95 % interval; SI, or the "
+                       "multiple that the preset gives; open (1): the interval ends "
+                       "at that limit of the range");
+    gb_listing_columns(listing, "%s", "key,unit");
+    gb_listing_columns(listing, "%.8g", "value,error,low_95,high_95");
     for (size_t k = 0; k < n; k++) {
-        gb_sheet_column(sheet, "%.4f", "correlation_%s", name_of(calibration, k, name));
+        gb_listing_column(listing, "%.4f", "correlation_%s",
+                          name_of(calibration, k, name));
     }
-    gb_sheet_columns(sheet, "%.0f", "low_open,high_open");
+    gb_listing_columns(listing, "%.0f", "low_open,high_open");
     for (size_t k = 0; k < n; k++) {
         const struct gb_free_key *key = &calibration->keys.key[k];
-        gb_sheet_text(sheet, name_of(calibration, k, name));
-        gb_sheet_text(sheet, key->relative ? key->field->relative : "SI");
-        gb_sheet_number(sheet, result->value[k]);
-        gb_sheet_number(sheet, result->error[k]);
-        gb_sheet_number(sheet, result->low[k]);
-        gb_sheet_number(sheet, result->high[k]);
-        gb_sheet_numbers(sheet, result->correlation[k], n);
-        gb_sheet_number(sheet, result->low_open[k]);
-        gb_sheet_number(sheet, result->high_open[k]);
+        gb_listing_text(listing, name_of(calibration, k, name));
+        gb_listing_text(listing, key->relative ? key->field->relative : "SI");
+        gb_listing_number(listing, result->value[k]);
+        gb_listing_number(listing, result->error[k]);
+        gb_listing_number(listing, result->low[k]);
+        gb_listing_number(listing, result->high[k]);
+        gb_listing_numbers(listing, result->correlation[k], n);
+        gb_listing_number(listing, result->low_open[k]);
+        gb_listing_number(listing, result->high_open[k]);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* fit.csv: measured values beside those simulated with the best fit. */
 static GString *fit_table(const struct gb_calibration *calibration)
 {
     const struct gb_labdata *lab = &calibration->lab;
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%.0f", "scene");
-    gb_sheet_columns(sheet, "%s", "branch");
-    gb_sheet_columns(sheet, "%.12g", "p_MPa,measured,measured_error");
-    gb_sheet_columns(sheet, "%.8g", "simulated");
-    gb_sheet_columns(sheet, "%.3g", "se_simulated");
-    gb_sheet_columns(sheet, "%s", "quantity");
-    gb_sheet_columns(sheet, "%.12g", "weight");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%.0f", "scene");
+    gb_listing_columns(listing, "%s", "branch");
+    gb_listing_columns(listing, "%.12g", "p_MPa,measured,measured_error");
+    gb_listing_columns(listing, "%.8g", "simulated");
+    gb_listing_columns(listing, "%.3g", "se_simulated");
+    gb_listing_columns(listing, "%s", "quantity");
+    gb_listing_columns(listing, "%.12g", "weight");
     for (size_t i = 0; i < lab->count; i++) {
         const struct gb_labdata_row *row = &lab->row[i];
-        gb_sheet_whole(sheet, row->scene + 1);
-        gb_sheet_text(sheet, row->unloaded ? "unload" : "load");
-        gb_sheet_number(sheet, row->pressure_pa / 1e6);
-        gb_sheet_number(sheet, lab->value[i]);
-        gb_sheet_number(sheet, lab->error != NULL ? lab->error[i] : (double)NAN);
-        gb_sheet_number(sheet, calibration->result.fitted[i]);
-        gb_sheet_number(sheet, calibration->result.fitted_error[i]);
-        gb_sheet_text(sheet, gb_lab_quantity_rows[row->quantity].name);
-        gb_sheet_number(sheet, lab->weight != NULL ? lab->weight[i] : 1.0);
+        gb_listing_whole(listing, row->scene + 1);
+        gb_listing_text(listing, row->unloaded ? "unload" : "load");
+        gb_listing_number(listing, row->pressure_pa / 1e6);
+        gb_listing_number(listing, lab->value[i]);
+        gb_listing_number(listing, lab->error != NULL ? lab->error[i] : (double)NAN);
+        gb_listing_number(listing, calibration->result.fitted[i]);
+        gb_listing_number(listing, calibration->result.fitted_error[i]);
+        gb_listing_text(listing, gb_lab_quantity_rows[row->quantity].name);
+        gb_listing_number(listing, lab->weight != NULL ? lab->weight[i] : 1.0);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* Root mean square of the residuals of each quantity. */

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
 #include "many/ensemble.h"
@@ -54,8 +54,8 @@ struct gb_calibration {
     void *data;
 
     struct gb_calibrate_result result;
-    struct gb_sheet *rounds; /* rounds.csv */
-    struct gb_error machine; /* the first run that the machine failed; GB_OK: none */
+    struct gb_listing *rounds; /* rounds.csv */
+    struct gb_error machine;   /* the first run that the machine failed; GB_OK: none */
 };
 
 /* Fits keys to lab.  Errors: those of gb_calibrate_fit, of work and of the machine.

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "measure/cap/cap_fit.h"
 
 GString *gb_card_files_misses(const struct gb_card_study *study)
@@ -29,44 +29,44 @@ GString *gb_card_files_misses(const struct gb_card_study *study)
     return text;
 }
 
-static void add_value(struct gb_sheet *sheet, const struct gb_fit_value *value,
+static void add_value(struct gb_listing *listing, const struct gb_fit_value *value,
                       double factor)
 {
-    gb_sheet_number(sheet, value->value * factor);
-    gb_sheet_number(sheet, value->low * factor);
-    gb_sheet_number(sheet, value->high * factor);
+    gb_listing_number(listing, value->value * factor);
+    gb_listing_number(listing, value->low * factor);
+    gb_listing_number(listing, value->high * factor);
 }
 
-static void add_columns(struct gb_sheet *sheet, const char *name)
+static void add_columns(struct gb_listing *listing, const char *name)
 {
-    gb_sheet_column(sheet, "%.8g", "%s", name);
-    gb_sheet_column(sheet, "%.8g", "%s_low", name);
-    gb_sheet_column(sheet, "%.8g", "%s_high", name);
+    gb_listing_column(listing, "%.8g", "%s", name);
+    gb_listing_column(listing, "%.8g", "%s_low", name);
+    gb_listing_column(listing, "%.8g", "%s_high", name);
 }
 
 GString *gb_card_files_card(const struct gb_card_study *study, const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
+    struct gb_listing *listing = gb_listing_new();
     GString *misses = gb_card_files_misses(study);
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_comment(sheet, misses->str);
-    gb_sheet_columns(sheet, "%.6g", "density,pressed_MPa");
+    gb_listing_comment(listing, comment);
+    gb_listing_comment(listing, misses->str);
+    gb_listing_columns(listing, "%.6g", "density,pressed_MPa");
     for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-        add_columns(sheet, gb_card_rows[n].name);
+        add_columns(listing, gb_card_rows[n].name);
     }
-    gb_sheet_columns(sheet, "%g", "transition");
-    gb_sheet_columns(sheet, "%.4g", "rms_MPa");
+    gb_listing_columns(listing, "%g", "transition");
+    gb_listing_columns(listing, "%.4g", "rms_MPa");
     for (int k = 0; k < study->levels; k++) {
-        gb_sheet_number(sheet, study->card.density[k]);
-        gb_sheet_number(sheet, study->card.pressed_pa[k] / 1e6);
+        gb_listing_number(listing, study->card.density[k]);
+        gb_listing_number(listing, study->card.pressed_pa[k] / 1e6);
         for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-            add_value(sheet, &study->quantity[k][n], gb_card_rows[n].factor);
+            add_value(listing, &study->quantity[k][n], gb_card_rows[n].factor);
         }
-        gb_sheet_number(sheet, study->options.transition);
-        gb_sheet_number(sheet, study->card.rms[k] / 1e6);
+        gb_listing_number(listing, study->options.transition);
+        gb_listing_number(listing, study->card.rms[k] / 1e6);
     }
     g_string_free(misses, TRUE);
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 GString *gb_card_files_points(const struct gb_card_study *study, const char *comment)
@@ -74,51 +74,51 @@ GString *gb_card_files_points(const struct gb_card_study *study, const char *com
     static const char *const sides[] = {[GB_CAP_FIT_SHEAR] = "shear",
                                         [GB_CAP_FIT_CAP] = "cap",
                                         [GB_CAP_FIT_LEFT_OUT] = "tension"};
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%.6g", "density");
-    gb_sheet_columns(sheet, "%.4g", "direction_deg");
-    gb_sheet_columns(sheet, "%.6g", "p_MPa");
-    gb_sheet_columns(sheet, "%.3g", "p_MPa_error");
-    gb_sheet_columns(sheet, "%.6g", "q_MPa");
-    gb_sheet_columns(sheet, "%.3g", "q_MPa_error");
-    gb_sheet_columns(sheet, "%.4g", "flow_volume,flow_shear");
-    gb_sheet_columns(sheet, "%s", "side");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%.6g", "density");
+    gb_listing_columns(listing, "%.4g", "direction_deg");
+    gb_listing_columns(listing, "%.6g", "p_MPa");
+    gb_listing_columns(listing, "%.3g", "p_MPa_error");
+    gb_listing_columns(listing, "%.6g", "q_MPa");
+    gb_listing_columns(listing, "%.3g", "q_MPa_error");
+    gb_listing_columns(listing, "%.4g", "flow_volume,flow_shear");
+    gb_listing_columns(listing, "%s", "side");
     for (size_t i = 0; i < study->points; i++) {
         const struct gb_yield_point *point = &study->point[i];
         const double number[] = {point->density,     point->direction * 180.0 / M_PI,
                                  point->p_pa / 1e6,  point->p_error_pa / 1e6,
                                  point->q_pa / 1e6,  point->q_error_pa / 1e6,
                                  point->flow_volume, point->flow_shear};
-        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
-        gb_sheet_text(sheet, sides[gb_cap_fit_side_of(point)]);
+        gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
+        gb_listing_text(listing, sides[gb_cap_fit_side_of(point)]);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 GString *gb_card_files_path(const struct gb_card_study *study, enum gb_card_path path,
                             const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%.6g", "density");
-    add_columns(sheet, "ratio");
-    add_columns(sheet, "card_ratio");
-    add_columns(sheet, "pz_MPa");
-    add_columns(sheet, "card_pz_MPa");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%.6g", "density");
+    add_columns(listing, "ratio");
+    add_columns(listing, "card_ratio");
+    add_columns(listing, "pz_MPa");
+    add_columns(listing, "card_pz_MPa");
     for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
         const struct gb_card_compared *at = &study->curve[path][i];
         if (!isfinite(at->simulated_ratio.value) ||
             !isfinite(at->predicted_ratio.value)) {
             continue;
         }
-        gb_sheet_number(sheet, at->density);
-        add_value(sheet, &at->simulated_ratio, 1.0);
-        add_value(sheet, &at->predicted_ratio, 1.0);
-        add_value(sheet, &at->simulated_pz, 1e-6);
-        add_value(sheet, &at->predicted_pz, 1e-6);
+        gb_listing_number(listing, at->density);
+        add_value(listing, &at->simulated_ratio, 1.0);
+        add_value(listing, &at->predicted_ratio, 1.0);
+        add_value(listing, &at->simulated_pz, 1e-6);
+        add_value(listing, &at->predicted_pz, 1e-6);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 static void add_comment(GString *text, const char *comment)

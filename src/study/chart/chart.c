@@ -18,7 +18,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/params.h"
@@ -760,43 +760,45 @@ static bool read_runs(struct gb_chart_log *log, struct gb_error *err)
     return good;
 }
 
-static void add_row(const struct gb_chart_log *log, struct gb_sheet *sheet,
+static void add_row(const struct gb_chart_log *log, struct gb_listing *listing,
                     const struct gb_chart_run *run)
 {
     const struct gb_chart_setting *c = &run->setting;
     const double setting[] = {(double)c->count, c->strain_step, c->tolerance, c->cutoff,
                               gb_chart_bits(c), c->time_step,   c->step_error};
     const double result[] = {(double)run->failed, run->evaluations, run->cpu_s};
-    gb_sheet_text(sheet, c->relaxer);
-    gb_sheet_numbers(sheet, setting, G_N_ELEMENTS(setting));
-    gb_sheet_whole(sheet, run->seed);
-    gb_sheet_numbers(sheet, result, G_N_ELEMENTS(result));
+    gb_listing_text(listing, c->relaxer);
+    gb_listing_numbers(listing, setting, G_N_ELEMENTS(setting));
+    gb_listing_whole(listing, run->seed);
+    gb_listing_numbers(listing, result, G_N_ELEMENTS(result));
     for (int k = 0; k < log->plan->pressures; k++) {
-        gb_sheet_number(sheet, run->density[k]);
-        gb_sheet_number(sheet, run->coordination[k]);
+        gb_listing_number(listing, run->density[k]);
+        gb_listing_number(listing, run->coordination[k]);
     }
 }
 
 static bool write_runs(const struct gb_chart_log *log, struct gb_error *err)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, "greenbody " GB_VERSION "\ncells simulated for chart.csv; "
-                            "cpu_s: of the loading, one thread");
-    gb_sheet_columns(sheet, "%s", "relaxer");
-    gb_sheet_columns(sheet, "%.17g",
-                     "particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,seed,"
-                     "failed,evaluations,cpu_s");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing,
+                       "greenbody " GB_VERSION "\ncells simulated for chart.csv; "
+                       "cpu_s: of the loading, one thread");
+    gb_listing_columns(listing, "%s", "relaxer");
+    gb_listing_columns(
+        listing, "%.17g",
+        "particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,seed,"
+        "failed,evaluations,cpu_s");
     for (int k = 0; k < log->plan->pressures; k++) {
         char name[48];
         column_name(log, "density", k, name, sizeof name);
-        gb_sheet_columns(sheet, "%.17g", name);
+        gb_listing_columns(listing, "%.17g", name);
         column_name(log, "coordination", k, name, sizeof name);
-        gb_sheet_columns(sheet, "%.17g", name);
+        gb_listing_columns(listing, "%.17g", name);
     }
     for (guint i = 0; i < log->runs->len; i++) {
-        add_row(log, sheet, &g_array_index(log->runs, struct gb_chart_run, i));
+        add_row(log, listing, &g_array_index(log->runs, struct gb_chart_run, i));
     }
-    return gb_sheet_store(sheet, log->directory, "runs.csv", err);
+    return gb_listing_store(listing, log->directory, "runs.csv", err);
 }
 
 bool gb_chart_open(struct gb_chart_log *log, const char *directory,

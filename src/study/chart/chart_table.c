@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
 #include "pack/cell/particles.h"
@@ -221,7 +221,8 @@ const struct gb_chart_row *gb_chart_table_chosen(const struct gb_chart_table *ta
     return NULL;
 }
 
-static struct gb_sheet *new_sheet(const struct gb_chart_plan *plan, const char *comment)
+static struct gb_listing *new_listing(const struct gb_chart_plan *plan,
+                                      const char *comment)
 {
     static const char *const each[] = {"density",
                                        "error",
@@ -229,24 +230,25 @@ static struct gb_sheet *new_sheet(const struct gb_chart_plan *plan, const char *
                                        "scatter",
                                        "coordination_error",
                                        "coordination_error_se"};
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, "greenbody " GB_VERSION);
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%s", "relaxer");
-    gb_sheet_columns(sheet, "%.8g",
-                     "particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,"
-                     "reference,seeds,failed,evaluations,cpu_s,bound,noise_limited,front,"
-                     "chosen");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, "greenbody " GB_VERSION);
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%s", "relaxer");
+    gb_listing_columns(
+        listing, "%.8g",
+        "particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,"
+        "reference,seeds,failed,evaluations,cpu_s,bound,noise_limited,front,"
+        "chosen");
     for (int k = 0; k < plan->pressures; k++) {
         for (size_t i = 0; i < G_N_ELEMENTS(each); i++) {
-            gb_sheet_column(sheet, "%.8g", "%s_%.6gMPa", each[i],
-                            plan->pressure_pa[k] / 1e6);
+            gb_listing_column(listing, "%.8g", "%s_%.6gMPa", each[i],
+                              plan->pressure_pa[k] / 1e6);
         }
     }
-    return sheet;
+    return listing;
 }
 
-static void add_row(struct gb_sheet *sheet, const struct gb_chart_row *row,
+static void add_row(struct gb_listing *listing, const struct gb_chart_row *row,
                     bool reference, int pressures)
 {
     const struct gb_chart_setting *c = &row->setting;
@@ -258,8 +260,8 @@ static void add_row(struct gb_sheet *sheet, const struct gb_chart_row *row,
                              row->evaluations,    row->cpu_s,
                              row->bound,          (double)row->noise_limited,
                              (double)row->pareto, (double)row->chosen};
-    gb_sheet_text(sheet, c->relaxer);
-    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+    gb_listing_text(listing, c->relaxer);
+    gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
     for (int k = 0; k < pressures; k++) {
         const double each[] = {row->density[k],
                                row->error[k],
@@ -267,20 +269,20 @@ static void add_row(struct gb_sheet *sheet, const struct gb_chart_row *row,
                                row->scatter[k],
                                row->coordination_error[k],
                                row->coordination_error_se[k]};
-        gb_sheet_numbers(sheet, each, G_N_ELEMENTS(each));
+        gb_listing_numbers(listing, each, G_N_ELEMENTS(each));
     }
 }
 
 GString *gb_chart_table_csv(const struct gb_chart_table *table,
                             const struct gb_chart_plan *plan, const char *comment)
 {
-    struct gb_sheet *sheet = new_sheet(plan, comment);
+    struct gb_listing *listing = new_listing(plan, comment);
     for (size_t i = 0; i < table->rows; i++) {
         if (table->row[i].seeds > 0) {
-            add_row(sheet, &table->row[i], i == 0, plan->pressures);
+            add_row(listing, &table->row[i], i == 0, plan->pressures);
         }
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* --- size and number of cells --------------------------------------------------------- */

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/params.h"
@@ -592,19 +592,19 @@ static const struct gb_quantity_study *study_of(GKeyFile *question)
 static bool answer(const struct gb_quantity_study *study, const double *value,
                    double cpu_s, bool failed, const char *path, struct gb_error *err)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
+    struct gb_listing *listing = gb_listing_new();
     double number[2 + GB_QUANTITY_VALUES] = {cpu_s, failed};
     size_t count = 2;
-    gb_sheet_columns(sheet, "%.8g", "cpu_s,failed");
+    gb_listing_columns(listing, "%.8g", "cpu_s,failed");
     for (const struct gb_quantity *row = quantities; row->name != NULL; row++) {
         if (row->study == study) {
-            gb_sheet_columns(sheet, "%.8g", row->name);
+            gb_listing_columns(listing, "%.8g", row->name);
             number[count++] = value[row->index];
         }
     }
-    gb_sheet_numbers(sheet, number, count);
-    const bool good = gb_cells_table(path, ".csv", sheet, err);
-    gb_sheet_free(sheet);
+    gb_listing_numbers(listing, number, count);
+    const bool good = gb_cells_table(path, ".csv", listing, err);
+    gb_listing_free(listing);
     return good;
 }
 
@@ -1163,23 +1163,24 @@ GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
 {
     const struct gb_quantity_study *study = table->quantity->study;
     const int axes = gb_quantity_chart_axes(study);
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, "greenbody " GB_VERSION);
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%s", "quantity,unit");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, "greenbody " GB_VERSION);
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%s", "quantity,unit");
     for (int a = 0; a < axes; a++) {
-        gb_sheet_columns(sheet, "%.8g", quantities_column(&study->axis[a]));
+        gb_listing_columns(listing, "%.8g", quantities_column(&study->axis[a]));
     }
-    gb_sheet_columns(sheet, "%.8g",
-                     "reference,default,seeds,failed,cpu_s,cost,value,scatter,error,"
-                     "error_se,error_95,bound,half_interval,noise_limited,front,chosen");
+    gb_listing_columns(
+        listing, "%.8g",
+        "reference,default,seeds,failed,cpu_s,cost,value,scatter,error,"
+        "error_se,error_95,bound,half_interval,noise_limited,front,chosen");
     for (guint i = 0; i < table->row->len; i++) {
         const struct gb_quantity_result *row = gb_quantity_chart_table_at(table, i);
         if (row->seeds == 0) {
             continue;
         }
-        gb_sheet_text(sheet, table->quantity->name);
-        gb_sheet_text(sheet, table->quantity->unit);
+        gb_listing_text(listing, table->quantity->name);
+        gb_listing_text(listing, table->quantity->unit);
         const double number[] = {i == 0,
                                  i == 1,
                                  row->seeds,
@@ -1196,10 +1197,10 @@ GString *gb_quantity_chart_table_csv(const struct gb_quantity_table *table,
                                  row->noise_limited,
                                  row->front,
                                  row->chosen};
-        gb_sheet_numbers(sheet, row->setting.value, (size_t)axes);
-        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+        gb_listing_numbers(listing, row->setting.value, (size_t)axes);
+        gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 static void add_row(GString *text, const struct gb_quantity_table *table, guint i)

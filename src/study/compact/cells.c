@@ -367,10 +367,10 @@ bool gb_cells_answer(const char *path, const char *ending, const GString *text,
     return good;
 }
 
-bool gb_cells_table(const char *path, const char *ending, const struct gb_sheet *sheet,
-                    struct gb_error *err)
+bool gb_cells_table(const char *path, const char *ending,
+                    const struct gb_listing *listing, struct gb_error *err)
 {
-    GString *text = gb_sheet_print(sheet, GB_SHEET_CSV);
+    GString *text = gb_listing_print(listing, GB_LISTING_CSV);
     const bool good = gb_cells_answer(path, ending, text, err);
     g_string_free(text, TRUE);
     return good;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "greenbody/params.h"
 #include "io/lock.h"
 #include "many/pool.h"
@@ -92,8 +92,8 @@ double gb_cells_option(GKeyFile *question, const char *key);
 /* Writes an answer, `path` with an ending. */
 bool gb_cells_answer(const char *path, const char *ending, const GString *text,
                      struct gb_error *err);
-/* The same of a sheet, as CSV. */
-bool gb_cells_table(const char *path, const char *ending, const struct gb_sheet *sheet,
-                    struct gb_error *err);
+/* The same of a listing, as CSV. */
+bool gb_cells_table(const char *path, const char *ending,
+                    const struct gb_listing *listing, struct gb_error *err);
 
 #endif

@@ -18,12 +18,12 @@ void gb_study_text_value(GString *text, const char *head,
     g_string_append(text, gb_number_error(number, error, 2, " \xc2\xb1 ", buffer));
 }
 
-void gb_study_text_mean(struct gb_sheet *sheet, const struct gb_fit_value *value,
+void gb_study_text_mean(struct gb_listing *listing, const struct gb_fit_value *value,
                         double factor)
 {
     GString *text = g_string_new(NULL);
     gb_study_text_value(text, "", value, factor);
-    gb_sheet_text(sheet, text->str);
+    gb_listing_text(listing, text->str);
     g_string_free(text, TRUE);
 }
 

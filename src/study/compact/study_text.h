@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "greenbody/status.h"
 #include "measure/fit/fit.h"
 
@@ -15,7 +15,7 @@
 void gb_study_text_value(GString *text, const char *head,
                          const struct gb_fit_value *value, double factor);
 /* The same as a cell. */
-void gb_study_text_mean(struct gb_sheet *sheet, const struct gb_fit_value *value,
+void gb_study_text_mean(struct gb_listing *listing, const struct gb_fit_value *value,
                         double factor);
 
 /* "12.3 (11 to 14)" after a head, by a format for each number; "-" for those that are not

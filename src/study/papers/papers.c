@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/listing.h"
 #include "base/number.h"
 #include "base/read_file.h"
-#include "base/sheet.h"
 #include "base/units.h"
 #include "greenbody/status.h"
 #include "io/lab/lab_grid.h"
@@ -631,37 +631,37 @@ GString *gb_papers_text(const struct gb_papers_results *results,
 
 GString *gb_papers_table(const struct gb_papers_results *results)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "id,paper,item,quantity,condition,comparison");
-    gb_sheet_columns(sheet, "", "here,here_error,cells");
-    gb_sheet_columns(sheet, "%s", "relation,printed");
-    gb_sheet_columns(sheet, "", "printed_error");
-    gb_sheet_columns(sheet, "%s", "unit");
-    gb_sheet_columns(sheet, "", "difference,difference_error");
-    gb_sheet_columns(sheet, "%s", "verdict,reason");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "id,paper,item,quantity,condition,comparison");
+    gb_listing_columns(listing, "", "here,here_error,cells");
+    gb_listing_columns(listing, "%s", "relation,printed");
+    gb_listing_columns(listing, "", "printed_error");
+    gb_listing_columns(listing, "%s", "unit");
+    gb_listing_columns(listing, "", "difference,difference_error");
+    gb_listing_columns(listing, "%s", "verdict,reason");
     for (size_t k = 0; k < results->count; k++) {
         const struct gb_papers_result *result = &results->result[k];
         const struct gb_papers_printed *printed = result->printed;
         const char relation[] = {"=~<"[printed->relation], '\0'};
         char *verdict = gb_papers_verdict_text(&result->verdict);
-        gb_sheet_text(sheet, printed->id);
-        gb_sheet_text(sheet, printed->paper);
-        gb_sheet_text(sheet, printed->item);
-        gb_sheet_text(sheet, printed->quantity);
-        gb_sheet_text(sheet, printed->condition);
-        gb_sheet_text(sheet, result->comparison->label);
-        gb_sheet_number(sheet, result->here.value);
-        gb_sheet_number(sheet, result->here.error);
-        gb_sheet_whole(sheet, result->here.cells);
-        gb_sheet_text(sheet, relation);
-        gb_sheet_text(sheet, printed->digits);
-        gb_sheet_number(sheet, printed->error);
-        gb_sheet_text(sheet, printed->unit);
-        gb_sheet_number(sheet, result->verdict.difference);
-        gb_sheet_number(sheet, result->verdict.error);
-        gb_sheet_text(sheet, verdict);
-        gb_sheet_text(sheet, result->comparison->why);
+        gb_listing_text(listing, printed->id);
+        gb_listing_text(listing, printed->paper);
+        gb_listing_text(listing, printed->item);
+        gb_listing_text(listing, printed->quantity);
+        gb_listing_text(listing, printed->condition);
+        gb_listing_text(listing, result->comparison->label);
+        gb_listing_number(listing, result->here.value);
+        gb_listing_number(listing, result->here.error);
+        gb_listing_whole(listing, result->here.cells);
+        gb_listing_text(listing, relation);
+        gb_listing_text(listing, printed->digits);
+        gb_listing_number(listing, printed->error);
+        gb_listing_text(listing, printed->unit);
+        gb_listing_number(listing, result->verdict.difference);
+        gb_listing_number(listing, result->verdict.error);
+        gb_listing_text(listing, verdict);
+        gb_listing_text(listing, result->comparison->why);
         g_free(verdict);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }

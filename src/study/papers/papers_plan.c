@@ -1,7 +1,7 @@
 /* What is computed to compare with the papers: experiments, their runs, and the runs read
  * back. */
 #include "study/papers/papers_plan.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 
 #include <glib.h>
 #include <math.h>
@@ -315,22 +315,22 @@ double gb_papers_plan_remaining_s(const struct gb_papers_plan *plan, size_t *run
 GString *gb_papers_plan_runs(const struct gb_papers_plan *plan)
 {
     const size_t skipped = strlen(plan->directory) + 1;
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s", "experiment,directory");
-    gb_sheet_columns(sheet, "%.0f", "seed");
-    gb_sheet_columns(sheet, "%s", "state,why");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%s", "experiment,directory");
+    gb_listing_columns(listing, "%.0f", "seed");
+    gb_listing_columns(listing, "%s", "state,why");
     for (size_t k = 0; k < plan->count; k++) {
         const struct gb_ensemble_run *run = &plan->ensemble.run[k];
         const bool failed = run->ended && run->error.code != GB_OK;
         char *why = g_strdelimit(g_strdup(failed ? run->error.text : ""), "\",\n", ' ');
-        gb_sheet_text(sheet, experiments[plan->run[k].experiment].name);
-        gb_sheet_text(sheet, run->directory + skipped);
-        gb_sheet_whole(sheet, run->params.seed);
-        gb_sheet_text(sheet, !run->ended ? "missing" : failed ? "failed" : "done");
-        gb_sheet_text(sheet, why);
+        gb_listing_text(listing, experiments[plan->run[k].experiment].name);
+        gb_listing_text(listing, run->directory + skipped);
+        gb_listing_whole(listing, run->params.seed);
+        gb_listing_text(listing, !run->ended ? "missing" : failed ? "failed" : "done");
+        gb_listing_text(listing, why);
         g_free(why);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* --- runs read back ------------------------------------------------------------------- */

@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "many/sweep/param_sweep.h"
 #include "measure/fit/sobol_indices.h"
 
@@ -146,7 +146,7 @@ static void add_key(GString *text, const struct gb_param_sweep *sweep, size_t ke
     g_string_append_printf(text, "%s.%s", field->group, field->key);
 }
 
-static void add_rows(struct gb_sheet *sheet, const struct gb_sensitivity_item *of,
+static void add_rows(struct gb_listing *listing, const struct gb_sensitivity_item *of,
                      const struct gb_param_sweep *sweep)
 {
     const struct gb_sobol_indices *indices = &of->indices;
@@ -157,11 +157,11 @@ static void add_rows(struct gb_sheet *sheet, const struct gb_sensitivity_item *o
                                  indices->seed_sd,  indices->unexplained};
         GString *key = g_string_new(NULL);
         add_key(key, sweep, k);
-        gb_sheet_text(sheet, gb_param_sweep_branch(of->branch));
-        gb_sheet_number(sheet, sweep->at.pa[of->pressure] / 1e6);
-        gb_sheet_text(sheet, gb_reading_name((enum gb_reading_quantity)of->quantity));
-        gb_sheet_text(sheet, key->str);
-        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+        gb_listing_text(listing, gb_param_sweep_branch(of->branch));
+        gb_listing_number(listing, sweep->at.pa[of->pressure] / 1e6);
+        gb_listing_text(listing, gb_reading_name((enum gb_reading_quantity)of->quantity));
+        gb_listing_text(listing, key->str);
+        gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
         g_string_free(key, TRUE);
     }
 }
@@ -169,9 +169,9 @@ static void add_rows(struct gb_sheet *sheet, const struct gb_sensitivity_item *o
 GString *gb_sensitivity_table(const struct gb_sensitivity *sensitivity,
                               const struct gb_param_sweep *sweep)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(
-        sheet,
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(
+        listing,
         "greenbody " GB_VERSION "\n"
         "shares of the variance of a figure over the ranges of the keys, by a key alone "
         "(first_order)\n"
@@ -180,16 +180,16 @@ GString *gb_sensitivity_table(const struct gb_sensitivity *sensitivity,
         "standard deviation by the keys; cell_sd: between cells at one point; "
         "unexplained: share that\n"
         "a quadratic of the keys lacks");
-    gb_sheet_columns(sheet, "%s", "branch");
-    gb_sheet_columns(sheet, "%.12g", "p_MPa");
-    gb_sheet_columns(sheet, "%s", "quantity,key");
-    gb_sheet_columns(sheet, "%.6g",
-                     "first_order,first_order_error,total,total_error,mean,range_sd,"
-                     "cell_sd,unexplained");
+    gb_listing_columns(listing, "%s", "branch");
+    gb_listing_columns(listing, "%.12g", "p_MPa");
+    gb_listing_columns(listing, "%s", "quantity,key");
+    gb_listing_columns(listing, "%.6g",
+                       "first_order,first_order_error,total,total_error,mean,range_sd,"
+                       "cell_sd,unexplained");
     for (size_t i = 0; i < sensitivity->count; i++) {
-        add_rows(sheet, &sensitivity->item[i], sweep);
+        add_rows(listing, &sensitivity->item[i], sweep);
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 static const struct gb_sensitivity_item *

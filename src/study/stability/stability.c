@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/vec.h"
 #include "greenbody/params.h"
 #include "law/critical_step.h"
@@ -759,22 +759,22 @@ bool gb_stability_stable(const struct gb_stability_row *row)
     return row->used <= row->measured;
 }
 
-struct gb_sheet *gb_stability_table(const char *comment)
+struct gb_listing *gb_stability_table(const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_comment(sheet,
-                     "longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
-                     "ratio: measured / theory; used: what the run takes; margin: "
-                     "measured / used");
-    gb_sheet_columns(sheet, "%s", "method");
-    gb_sheet_columns(sheet, "%.8g",
-                     "p_MPa,density,damping,theory,measured,ratio,used,margin");
-    gb_sheet_columns(sheet, "%.0f", "stable,in_use");
-    return sheet;
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_comment(listing,
+                       "longest stable steps in sqrt(m/(E d)), of steepest in 1/(E d); "
+                       "ratio: measured / theory; used: what the run takes; margin: "
+                       "measured / used");
+    gb_listing_columns(listing, "%s", "method");
+    gb_listing_columns(listing, "%.8g",
+                       "p_MPa,density,damping,theory,measured,ratio,used,margin");
+    gb_listing_columns(listing, "%.0f", "stable,in_use");
+    return listing;
 }
 
-void gb_stability_add(struct gb_sheet *sheet, const struct gb_stability_row *row)
+void gb_stability_add(struct gb_listing *listing, const struct gb_stability_row *row)
 {
     const double number[] = {1e-6 * row->p_pa,
                              row->density,
@@ -786,6 +786,6 @@ void gb_stability_add(struct gb_sheet *sheet, const struct gb_stability_row *row
                              row->measured / row->used,
                              gb_stability_stable(row),
                              row->in_use};
-    gb_sheet_text(sheet, row->method);
-    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+    gb_listing_text(listing, row->method);
+    gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
 }

@@ -4,7 +4,7 @@
 #include <glib.h>
 #include <stdbool.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "greenbody/params.h"
 #include "pack/cell/world.h"
 #include "scene/field/keep_points.h"
@@ -98,8 +98,8 @@ bool gb_stability_run(const struct gb_params *params, const struct gb_keep_point
 /* Whether the method is stable with the step that it takes. */
 bool gb_stability_stable(const struct gb_stability_row *row);
 
-/* A table, for rows of gb_stability_add; comment: lines above it.  gb_sheet_free. */
-struct gb_sheet *gb_stability_table(const char *comment);
-void gb_stability_add(struct gb_sheet *sheet, const struct gb_stability_row *row);
+/* A table, for rows of gb_stability_add; comment: lines above it.  gb_listing_free. */
+struct gb_listing *gb_stability_table(const char *comment);
+void gb_stability_add(struct gb_listing *listing, const struct gb_stability_row *row);
 
 #endif

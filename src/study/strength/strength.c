@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "base/table.h"
 #include "many/pool.h"
 #include "scene/field/keep_points.h"
@@ -86,7 +86,7 @@ struct cell {
     const struct gb_pool_callbacks *callbacks;
     struct gb_compact top, free;
     struct gb_strength_broken *broken; /* of each test */
-    struct gb_sheet *rows;             /* NULL: not wanted */
+    struct gb_listing *rows;           /* NULL: not wanted */
 };
 
 /* A test without points, and one point more of it. */
@@ -141,7 +141,7 @@ static void add_row(struct breaking *breaking, const struct gb_point *point)
     strength_cell_break(&cell->broken[breaking->test], number[1], number[2], number[3],
                         number[4]);
     if (cell->rows != NULL) {
-        gb_sheet_numbers(cell->rows, number, G_N_ELEMENTS(number));
+        gb_listing_numbers(cell->rows, number, G_N_ELEMENTS(number));
     }
 }
 
@@ -177,7 +177,8 @@ static bool break_one(struct cell *cell, enum gb_strength_test test, struct gb_e
 
 bool gb_strength_measure(struct gb_strength_broken test[GB_STRENGTH_TESTS],
                          const struct gb_params *params, const struct gb_keep_point *mark,
-                         const struct gb_strength_options *options, struct gb_sheet *rows,
+                         const struct gb_strength_options *options,
+                         struct gb_listing *rows,
                          const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     struct cell cell = {
@@ -187,7 +188,7 @@ bool gb_strength_measure(struct gb_strength_broken test[GB_STRENGTH_TESTS],
     cell.top.tolerance = options->tolerance;
     good = good && gb_compact_unload(&cell.top, 0.0, callbacks, &cell.free, err);
     if (rows != NULL) {
-        gb_sheet_columns(rows, "%.8g", "test,strain,stress_Pa,density,broken");
+        gb_listing_columns(rows, "%.8g", "test,strain,stress_Pa,density,broken");
     }
     for (int t = 0; t < GB_STRENGTH_TESTS && good; t++) {
         test[t] = strength_cell_unbroken();
@@ -218,11 +219,11 @@ static bool strength_cell_work(const struct gb_params *params, const char *path,
     }
     strength_options_read(&options, &mark, question);
     g_key_file_free(question);
-    struct gb_sheet *rows = gb_sheet_new();
+    struct gb_listing *rows = gb_listing_new();
     const bool good =
         gb_strength_measure(test, params, &mark, &options, rows, callbacks, err) &&
         gb_cells_table(path, ".csv", rows, err);
-    gb_sheet_free(rows);
+    gb_listing_free(rows);
     gb_lock_release(&lock);
     return good;
 }
@@ -310,8 +311,8 @@ static void add_curves(struct gb_strength_study *study, const struct gb_keep_poi
                                  100.0 * column[0][i],
                                  1e-6 * column[1][i],
                                  100.0 * column[2][i]};
-        gb_sheet_text(study->curves, gb_strength_tests[(int)test[i]].name);
-        gb_sheet_numbers(study->curves, number, G_N_ELEMENTS(number));
+        gb_listing_text(study->curves, gb_strength_tests[(int)test[i]].name);
+        gb_listing_numbers(study->curves, number, G_N_ELEMENTS(number));
     }
 }
 
@@ -409,11 +410,11 @@ bool gb_strength_run(struct gb_strength_study *study, const struct gb_params *pr
     *study = (struct gb_strength_study){
         .options = *options,
         .result = g_array_new(FALSE, FALSE, sizeof(struct gb_strength_result)),
-        .curves = gb_sheet_new()};
-    gb_sheet_columns(study->curves, "%s", "test");
-    gb_sheet_columns(study->curves, "%.8g",
-                     "pressure_MPa,pressed_density,cell,strain_percent,stress_MPa,"
-                     "broken_percent");
+        .curves = gb_listing_new()};
+    gb_listing_columns(study->curves, "%s", "test");
+    gb_listing_columns(study->curves, "%.8g",
+                       "pressure_MPa,pressed_density,cell,strain_percent,stress_MPa,"
+                       "broken_percent");
     if (!strength_cell_check(options, err) ||
         !gb_seed_check_cells(preset, (size_t)options->replicas, err) ||
         !gb_compact_params(&params, preset, err) ||
@@ -432,7 +433,7 @@ void gb_strength_finish(struct gb_strength_study *study)
 {
     if (study->result != NULL) {
         g_array_unref(study->result);
-        gb_sheet_free(study->curves);
+        gb_listing_free(study->curves);
     }
     memset(study, 0, sizeof *study);
 }
@@ -441,15 +442,15 @@ void gb_strength_finish(struct gb_strength_study *study)
 
 static GString *table(const struct gb_strength_study *study, const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%s", "test");
-    gb_sheet_columns(sheet, "%.8g",
-                     "pressure_MPa,pressed_density,cells,density,strength_MPa,"
-                     "strength_error_MPa,strain_percent,strain_error_percent,"
-                     "broken_at_peak_percent,broken_at_end_percent,weibull_modulus,"
-                     "weibull_low,weibull_high,weibull_scale_MPa,"
-                     "broken_at_peak_error_percent,broken_at_end_error_percent");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%s", "test");
+    gb_listing_columns(listing, "%.8g",
+                       "pressure_MPa,pressed_density,cells,density,strength_MPa,"
+                       "strength_error_MPa,strain_percent,strain_error_percent,"
+                       "broken_at_peak_percent,broken_at_end_percent,weibull_modulus,"
+                       "weibull_low,weibull_high,weibull_scale_MPa,"
+                       "broken_at_peak_error_percent,broken_at_end_error_percent");
     for (guint i = 0; i < study->result->len; i++) {
         const struct gb_strength_result *r =
             &g_array_index(study->result, struct gb_strength_result, i);
@@ -469,10 +470,10 @@ static GString *table(const struct gb_strength_study *study, const char *comment
                                  1e-6 * r->weibull.scale,
                                  100.0 * r->broken_at_peak_error,
                                  100.0 * r->broken_at_end_error};
-        gb_sheet_text(sheet, gb_strength_tests[r->test].name);
-        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+        gb_listing_text(listing, gb_strength_tests[r->test].name);
+        gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 static GString *page(const struct gb_strength_study *study, const char *title,
@@ -485,10 +486,10 @@ static GString *page(const struct gb_strength_study *study, const char *title,
         "stresses are taken away, and copies are broken. Standard errors over the cells; "
         "Weibull modulus by maximum likelihood with its 95 %% interval.\n\n",
         title, command, study->options.replicas);
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%s",
-                     "pressed to,test,strength (MPa),strain (%),"
-                     "bridges broken at the peak (%),Weibull modulus");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%s",
+                       "pressed to,test,strength (MPa),strain (%),"
+                       "bridges broken at the peak (%),Weibull modulus");
     for (guint i = 0; i < study->result->len; i++) {
         const struct gb_strength_result *r =
             &g_array_index(study->result, struct gb_strength_result, i);
@@ -503,18 +504,18 @@ static GString *page(const struct gb_strength_study *study, const char *title,
         char *mark = g_strdup_printf(
             "%g%s", r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
             r->mark.by_density ? "" : " MPa");
-        gb_sheet_text(sheet, mark);
-        gb_sheet_text(sheet, gb_strength_tests[r->test].name);
-        gb_study_text_mean(sheet, &strength, 1e-6);
-        gb_study_text_mean(sheet, &strain, 100.0);
-        gb_study_text_mean(sheet, &broken, 100.0);
+        gb_listing_text(listing, mark);
+        gb_listing_text(listing, gb_strength_tests[r->test].name);
+        gb_study_text_mean(listing, &strength, 1e-6);
+        gb_study_text_mean(listing, &strain, 100.0);
+        gb_study_text_mean(listing, &broken, 100.0);
         GString *interval = g_string_new(NULL);
         gb_study_text_interval(interval, "", "%.2g", &modulus, 1.0);
-        gb_sheet_text(sheet, interval->str);
+        gb_listing_text(listing, interval->str);
         g_string_free(interval, TRUE);
         g_free(mark);
     }
-    GString *rows = gb_sheet_end(sheet, GB_SHEET_MARKDOWN);
+    GString *rows = gb_listing_end(listing, GB_LISTING_MARKDOWN);
     g_string_append(text, rows->str);
     g_string_free(rows, TRUE);
     if (study->failed > 0) {
@@ -527,10 +528,10 @@ bool gb_strength_write(const struct gb_strength_study *study, const char *direct
                        const char *title, const char *command, struct gb_error *err)
 {
     char *comment = g_strdup_printf("preset: %s\ncommand: %s", title, command);
-    gb_sheet_comment(study->curves, comment);
+    gb_listing_comment(study->curves, comment);
     const struct gb_study_text_file file[] = {
         {"strength.csv", table(study, comment)},
-        {"strength_curves.csv", gb_sheet_print(study->curves, GB_SHEET_CSV)},
+        {"strength_curves.csv", gb_listing_print(study->curves, GB_LISTING_CSV)},
         {"strength.md", page(study, title, command)}};
     g_free(comment);
     return gb_study_text_write(file, G_N_ELEMENTS(file), directory, err);

@@ -4,7 +4,7 @@
 #include <glib.h>
 #include <stdbool.h>
 
-#include "base/sheet.h"
+#include "base/listing.h"
 #include "greenbody/params.h"
 #include "many/pool.h"
 #include "measure/fit/average.h"
@@ -50,11 +50,12 @@ struct gb_strength_broken {
 
 /* Presses a compact of params to a mark, takes its stresses away and breaks copies.
  *
- * rows  NULL, or an empty sheet that receives columns and a row per recorded point, as PATH.csv below
+ * rows  NULL, or an empty listing that receives columns and a row per recorded point, as PATH.csv below
  * Errors: those of gb_compact_press and gb_compact_unload. */
 bool gb_strength_measure(struct gb_strength_broken test[GB_STRENGTH_TESTS],
                          const struct gb_params *params, const struct gb_keep_point *mark,
-                         const struct gb_strength_options *options, struct gb_sheet *rows,
+                         const struct gb_strength_options *options,
+                         struct gb_listing *rows,
                          const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
 /* What one test says of the compacts of one mark; standard errors over the cells. */
@@ -72,9 +73,9 @@ struct gb_strength_result {
 
 struct gb_strength_study {
     struct gb_strength_options options;
-    GArray *result;          /* of struct gb_strength_result: marks x tests */
-    struct gb_sheet *curves; /* all stress-strain curves */
-    size_t failed;           /* cells without an answer; `why` says it of the first */
+    GArray *result;            /* of struct gb_strength_result: marks x tests */
+    struct gb_listing *curves; /* all stress-strain curves */
+    size_t failed;             /* cells without an answer; `why` says it of the first */
     struct gb_error why;
 };
 

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/listing.h"
 #include "base/number.h"
-#include "base/sheet.h"
 #include "base/table.h"
 #include "many/pool.h"
 #include "measure/yield_point.h"
@@ -121,7 +121,7 @@ struct cell {
     struct gb_compact top, inside;
     struct gb_compact_elastic elastic;
     struct gb_yield_point chosen[GB_YIELD_DIRECTIONS_MAX]; /* at the chosen offset */
-    struct gb_sheet *points, *paths;
+    struct gb_listing *points, *paths;
 };
 
 /* Index of the direction and of the offset, state of the compact, the point. */
@@ -142,7 +142,7 @@ static void add_point(struct cell *cell, int direction, int offset,
     const double number[] = {
         direction,  offset,     cell->top.point.density, top.p,           top.q,
         point.p_pa, point.q_pa, point.flow_volume,       point.flow_shear};
-    gb_sheet_numbers(cell->points, number, G_N_ELEMENTS(number));
+    gb_listing_numbers(cell->points, number, G_N_ELEMENTS(number));
 }
 
 static void add_path(struct cell *cell, int direction,
@@ -151,7 +151,7 @@ static void add_path(struct cell *cell, int direction,
     if (probe->outcome == GB_COMPACT_STOPPED) {
         char *note =
             g_strdup_printf("direction %d stopped: %s", direction, probe->why.text);
-        gb_sheet_note(cell->paths, note);
+        gb_listing_note(cell->paths, note);
         g_free(note);
     }
     for (guint i = 0; i < probe->state->len; i++) {
@@ -159,7 +159,7 @@ static void add_path(struct cell *cell, int direction,
             &g_array_index(probe->state, struct gb_compact_state, i);
         const double number[] = {direction, 1e-6 * state->p, 1e-6 * state->q,
                                  state->volume, state->shear};
-        gb_sheet_numbers(cell->paths, number, G_N_ELEMENTS(number));
+        gb_listing_numbers(cell->paths, number, G_N_ELEMENTS(number));
     }
 }
 
@@ -186,10 +186,10 @@ static bool probe_one(struct cell *cell, int direction, struct gb_error *err)
 
 static bool probe_all(struct cell *cell, struct gb_error *err)
 {
-    gb_sheet_columns(cell->points, "%.10g",
-                     "direction,offset,density,top_p_Pa,top_q_Pa,p_Pa,q_Pa,flow_volume,"
-                     "flow_shear");
-    gb_sheet_columns(cell->paths, "%.9g", "direction,p_MPa,q_MPa,volume,shear");
+    gb_listing_columns(cell->points, "%.10g",
+                       "direction,offset,density,top_p_Pa,top_q_Pa,p_Pa,q_Pa,flow_volume,"
+                       "flow_shear");
+    gb_listing_columns(cell->paths, "%.9g", "direction,p_MPa,q_MPa,volume,shear");
     for (int i = 0; i < cell->options.directions; i++) {
         if (!probe_one(cell, i, err)) {
             return false;
@@ -215,15 +215,15 @@ static bool measure(struct cell *cell, const struct gb_params *params,
 static void cell_init(struct cell *cell, const struct gb_pool_callbacks *callbacks)
 {
     *cell = (struct cell){
-        .callbacks = callbacks, .points = gb_sheet_new(), .paths = gb_sheet_new()};
+        .callbacks = callbacks, .points = gb_listing_new(), .paths = gb_listing_new()};
 }
 
 static void cell_finish(struct cell *cell)
 {
     gb_compact_finish(&cell->inside);
     gb_compact_finish(&cell->top);
-    gb_sheet_free(cell->points);
-    gb_sheet_free(cell->paths);
+    gb_listing_free(cell->points);
+    gb_listing_free(cell->paths);
 }
 
 bool gb_yield_measure(struct gb_yield_point point[GB_YIELD_DIRECTIONS_MAX],
@@ -505,8 +505,8 @@ const struct gb_yield_surface *gb_yield_study_surface(const struct gb_yield_stud
 
 /* The tables and the page of a study; stresses in MPa, angles in degrees. */
 
-static void add_direction(struct gb_sheet *sheet, const struct gb_yield_surface *surface,
-                          int d)
+static void add_direction(struct gb_listing *listing,
+                          const struct gb_yield_surface *surface, int d)
 {
     const struct gb_yield_surface_direction *direction = &surface->direction[d];
     const struct gb_yield_point *mean = &direction->mean;
@@ -524,15 +524,15 @@ static void add_direction(struct gb_sheet *sheet, const struct gb_yield_surface 
                              direction->angle.error,
                              direction->dilatancy.value,
                              direction->dilatancy.error};
-    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+    gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
 }
 
 GString *gb_yield_points(const struct gb_yield_study *study, const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(
-        sheet, "%.8g",
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(
+        listing, "%.8g",
         "density,offset_percent,direction_deg,cells,p_MPa,p_error_MPa,q_MPa,"
         "q_error_MPa,flow_volume,flow_shear,angle_deg,angle_error_deg,dilatancy,"
         "dilatancy_error");
@@ -540,20 +540,20 @@ GString *gb_yield_points(const struct gb_yield_study *study, const char *comment
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         for (int d = 0; d < surface->directions; d++) {
             if (surface->direction[d].cells > 0) {
-                add_direction(sheet, surface, d);
+                add_direction(listing, surface, d);
             }
         }
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* yield_cells.csv: the points of every cell at the chosen offset. */
 static GString *yield_files_cells(const struct gb_yield_study *study, const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%.8g",
-                     "density,cell,direction_deg,p_MPa,q_MPa,flow_volume,flow_shear");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%.8g",
+                       "density,cell,direction_deg,p_MPa,q_MPa,flow_volume,flow_shear");
     for (guint i = 0; i < study->point->len; i++) {
         const struct gb_yield_point *point =
             &g_array_index(study->point, struct gb_yield_point, i);
@@ -561,41 +561,42 @@ static GString *yield_files_cells(const struct gb_yield_study *study, const char
             point->density,     point->replica,     point->direction * 180.0 / G_PI,
             1e-6 * point->p_pa, 1e-6 * point->q_pa, point->flow_volume,
             point->flow_shear};
-        gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
+        gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
-static void add_quantity(struct gb_sheet *sheet, const struct gb_yield_surface *surface,
-                         const char *name, const struct gb_fit_value *value,
-                         const char *unit, double factor)
+static void add_quantity(struct gb_listing *listing,
+                         const struct gb_yield_surface *surface, const char *name,
+                         const struct gb_fit_value *value, const char *unit,
+                         double factor)
 {
     const double number[] = {surface->density.value, 100.0 * surface->offset,
                              factor * value->value,  factor * value->error,
                              factor * value->low,    factor * value->high};
-    gb_sheet_text(sheet, name);
-    gb_sheet_numbers(sheet, number, G_N_ELEMENTS(number));
-    gb_sheet_text(sheet, unit);
+    gb_listing_text(listing, name);
+    gb_listing_numbers(listing, number, G_N_ELEMENTS(number));
+    gb_listing_text(listing, unit);
 }
 
 GString *gb_yield_fit(const struct gb_yield_study *study, const char *comment)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_comment(sheet, comment);
-    gb_sheet_columns(sheet, "%s", "quantity");
-    gb_sheet_columns(sheet, "%.8g", "density,offset_percent,value,error,low,high");
-    gb_sheet_columns(sheet, "%s", "unit");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_comment(listing, comment);
+    gb_listing_columns(listing, "%s", "quantity");
+    gb_listing_columns(listing, "%.8g", "density,offset_percent,value,error,low,high");
+    gb_listing_columns(listing, "%s", "unit");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
-        add_quantity(sheet, surface, "compact_p", &surface->top_p, "MPa", 1e-6);
-        add_quantity(sheet, surface, "compact_q", &surface->top_q, "MPa", 1e-6);
+        add_quantity(listing, surface, "compact_p", &surface->top_p, "MPa", 1e-6);
+        add_quantity(listing, surface, "compact_q", &surface->top_q, "MPa", 1e-6);
         for (int k = 0; k < GB_YIELD_QUANTITIES; k++) {
             const struct gb_yield_surface_row *row = &gb_yield_surface_rows[k];
-            add_quantity(sheet, surface, row->name, &surface->quantity[k], row->unit,
+            add_quantity(listing, surface, row->name, &surface->quantity[k], row->unit,
                          row->factor);
         }
     }
-    return gb_sheet_end(sheet, GB_SHEET_CSV);
+    return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
 /* --- the page ---------------------------------------------------------------------- */
@@ -606,36 +607,36 @@ static const struct gb_fit_value *quantity(const struct gb_yield_surface *surfac
     return &surface->quantity[which];
 }
 
-static void add_sheet(GString *text, struct gb_sheet *sheet)
+static void add_listing(GString *text, struct gb_listing *listing)
 {
-    GString *rows = gb_sheet_end(sheet, GB_SHEET_MARKDOWN);
+    GString *rows = gb_listing_end(listing, GB_LISTING_MARKDOWN);
     g_string_append(text, rows->str);
     g_string_free(rows, TRUE);
 }
 
 static void add_surfaces(GString *text, const struct gb_yield_study *study)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%.4f", "density");
-    gb_sheet_columns(sheet, "%s", "pressed to p (MPa)");
-    gb_sheet_columns(sheet, "%g", "offset (%)");
-    gb_sheet_columns(sheet, "%s", "centre p (MPa),centre q,half axis p,half axis q");
-    gb_sheet_columns(sheet, "%s", "misfit");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%.4f", "density");
+    gb_listing_columns(listing, "%s", "pressed to p (MPa)");
+    gb_listing_columns(listing, "%g", "offset (%)");
+    gb_listing_columns(listing, "%s", "centre p (MPa),centre q,half axis p,half axis q");
+    gb_listing_columns(listing, "%s", "misfit");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         char number[GB_NUMBER_MAX];
-        gb_sheet_number(sheet, surface->density.value);
-        gb_study_text_mean(sheet, &surface->top_p, 1e-6);
-        gb_sheet_number(sheet, 100.0 * surface->offset);
+        gb_listing_number(listing, surface->density.value);
+        gb_study_text_mean(listing, &surface->top_p, 1e-6);
+        gb_listing_number(listing, 100.0 * surface->offset);
         for (int k = GB_YIELD_CENTRE_P; k <= GB_YIELD_HALF_Q; k++) {
-            gb_study_text_mean(sheet, &surface->quantity[k], 1e-6);
+            gb_study_text_mean(listing, &surface->quantity[k], 1e-6);
         }
-        gb_sheet_text(
-            sheet,
+        gb_listing_text(
+            listing,
             gb_number_shown("%.3f", quantity(surface, GB_YIELD_MISFIT)->value, number));
     }
     g_string_append(text, "\n## Ellipses\n\n");
-    add_sheet(text, sheet);
+    add_listing(text, listing);
 }
 
 /* Whether the interval holds zero. */
@@ -697,10 +698,10 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
 
 static void add_directions(GString *text, const struct gb_yield_study *study)
 {
-    struct gb_sheet *sheet = gb_sheet_new();
-    gb_sheet_columns(sheet, "%.4f", "density");
-    gb_sheet_columns(sheet, "%.0f", "direction (deg),cells");
-    gb_sheet_columns(sheet, "%s", "p (MPa),q (MPa),angle to normal (deg),dilatancy");
+    struct gb_listing *listing = gb_listing_new();
+    gb_listing_columns(listing, "%.4f", "density");
+    gb_listing_columns(listing, "%.0f", "direction (deg),cells");
+    gb_listing_columns(listing, "%s", "p (MPa),q (MPa),angle to normal (deg),dilatancy");
     for (int m = 0; m < study->options.marks.count; m++) {
         const struct gb_yield_surface *surface =
             gb_yield_study_surface(study, m, GB_YIELD_OFFSET_CHOSEN);
@@ -710,17 +711,17 @@ static void add_directions(GString *text, const struct gb_yield_study *study)
                                            .error = at->mean.p_error_pa};
             const struct gb_fit_value q = {.value = at->mean.q_pa,
                                            .error = at->mean.q_error_pa};
-            gb_sheet_number(sheet, surface->density.value);
-            gb_sheet_number(sheet, direction_of(&study->options, d) * 180.0 / G_PI);
-            gb_sheet_number(sheet, at->cells);
-            gb_study_text_mean(sheet, &p, 1e-6);
-            gb_study_text_mean(sheet, &q, 1e-6);
-            gb_study_text_mean(sheet, &at->angle, 1.0);
-            gb_study_text_mean(sheet, &at->dilatancy, 1.0);
+            gb_listing_number(listing, surface->density.value);
+            gb_listing_number(listing, direction_of(&study->options, d) * 180.0 / G_PI);
+            gb_listing_number(listing, at->cells);
+            gb_study_text_mean(listing, &p, 1e-6);
+            gb_study_text_mean(listing, &q, 1e-6);
+            gb_study_text_mean(listing, &at->angle, 1.0);
+            gb_study_text_mean(listing, &at->dilatancy, 1.0);
         }
     }
     g_string_append(text, "\n## Points at the chosen offset\n\n");
-    add_sheet(text, sheet);
+    add_listing(text, listing);
 }
 
 /* The page: what was done, the fitted surfaces, and the three statements on each compact:

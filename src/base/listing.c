@@ -2,7 +2,7 @@
  * aligned text print; JSON reads numbers back from it, so all formats have the same digits.
  * The cells of all rows are in one string, each with a NUL at its end: a packing has
  * millions. */
-#include "base/sheet.h"
+#include "base/listing.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -22,7 +22,7 @@ struct note {
     char *line;
 };
 
-struct gb_sheet {
+struct gb_listing {
     GArray *column; /* struct column */
     GArray *note;   /* struct note, by row */
     GString *head;  /* comments above the names */
@@ -41,33 +41,34 @@ static void clear_note(void *note)
     g_free(((struct note *)note)->line);
 }
 
-struct gb_sheet *gb_sheet_new(void)
+struct gb_listing *gb_listing_new(void)
 {
-    struct gb_sheet *sheet = g_new(struct gb_sheet, 1);
-    *sheet = (struct gb_sheet){.column = g_array_new(FALSE, FALSE, sizeof(struct column)),
-                               .note = g_array_new(FALSE, FALSE, sizeof(struct note)),
-                               .head = g_string_new(NULL),
-                               .cells = g_string_new(NULL)};
-    g_array_set_clear_func(sheet->column, clear_column);
-    g_array_set_clear_func(sheet->note, clear_note);
-    return sheet;
+    struct gb_listing *listing = g_new(struct gb_listing, 1);
+    *listing =
+        (struct gb_listing){.column = g_array_new(FALSE, FALSE, sizeof(struct column)),
+                            .note = g_array_new(FALSE, FALSE, sizeof(struct note)),
+                            .head = g_string_new(NULL),
+                            .cells = g_string_new(NULL)};
+    g_array_set_clear_func(listing->column, clear_column);
+    g_array_set_clear_func(listing->note, clear_note);
+    return listing;
 }
 
-void gb_sheet_free(struct gb_sheet *sheet)
+void gb_listing_free(struct gb_listing *listing)
 {
-    if (sheet == NULL) {
+    if (listing == NULL) {
         return;
     }
-    g_array_free(sheet->column, TRUE);
-    g_array_free(sheet->note, TRUE);
-    g_string_free(sheet->head, TRUE);
-    g_string_free(sheet->cells, TRUE);
-    g_free(sheet);
+    g_array_free(listing->column, TRUE);
+    g_array_free(listing->note, TRUE);
+    g_string_free(listing->head, TRUE);
+    g_string_free(listing->cells, TRUE);
+    g_free(listing);
 }
 
-static const struct column *column_at(const struct gb_sheet *sheet, size_t k)
+static const struct column *column_at(const struct gb_listing *listing, size_t k)
 {
-    return &g_array_index(sheet->column, struct column, k);
+    return &g_array_index(listing->column, struct column, k);
 }
 
 static bool is_text(const struct column *column)
@@ -77,104 +78,106 @@ static bool is_text(const struct column *column)
 
 /* --- filling -------------------------------------------------------------------------- */
 
-void gb_sheet_comment(struct gb_sheet *sheet, const char *lines)
+void gb_listing_comment(struct gb_listing *listing, const char *lines)
 {
     char **line = g_strsplit(lines != NULL ? lines : "", "\n", -1);
     for (size_t i = 0; line[i] != NULL; i++) {
         if (line[i][0] != '\0') {
-            g_string_append_printf(sheet->head, "# %s\n", line[i]);
+            g_string_append_printf(listing->head, "# %s\n", line[i]);
         }
     }
     g_strfreev(line);
 }
 
-void gb_sheet_note(struct gb_sheet *sheet, const char *line)
+void gb_listing_note(struct gb_listing *listing, const char *line)
 {
-    const struct note note = {sheet->count / sheet->column->len, g_strdup(line)};
-    g_array_append_val(sheet->note, note);
+    const struct note note = {listing->count / listing->column->len, g_strdup(line)};
+    g_array_append_val(listing->note, note);
 }
 
-void gb_sheet_quote(struct gb_sheet *sheet)
+void gb_listing_quote(struct gb_listing *listing)
 {
-    sheet->quote = true;
+    listing->quote = true;
 }
 
-static void add_column(struct gb_sheet *sheet, const char *format, char *name)
+static void add_column(struct gb_listing *listing, const char *format, char *name)
 {
     const struct column column = {name, format};
-    g_array_append_val(sheet->column, column);
+    g_array_append_val(listing->column, column);
 }
 
-void gb_sheet_columns(struct gb_sheet *sheet, const char *format, const char *names)
+void gb_listing_columns(struct gb_listing *listing, const char *format, const char *names)
 {
     char **name = g_strsplit(names, ",", -1);
     for (size_t k = 0; name[k] != NULL; k++) {
-        add_column(sheet, format, name[k]);
+        add_column(listing, format, name[k]);
     }
     g_free(name); /* the columns own the names */
 }
 
-void gb_sheet_column(struct gb_sheet *sheet, const char *format, const char *name, ...)
+void gb_listing_column(struct gb_listing *listing, const char *format, const char *name,
+                       ...)
 {
     va_list arguments;
     va_start(arguments, name);
-    add_column(sheet, format, g_strdup_vprintf(name, arguments));
+    add_column(listing, format, g_strdup_vprintf(name, arguments));
     va_end(arguments);
 }
 
-static void end_cell(struct gb_sheet *sheet)
+static void end_cell(struct gb_listing *listing)
 {
-    g_string_append_c(sheet->cells, '\0');
-    sheet->count++;
+    g_string_append_c(listing->cells, '\0');
+    listing->count++;
 }
 
-void gb_sheet_number(struct gb_sheet *sheet, double value)
+void gb_listing_number(struct gb_listing *listing, double value)
 {
-    const char *format = column_at(sheet, sheet->count % sheet->column->len)->format;
+    const char *format =
+        column_at(listing, listing->count % listing->column->len)->format;
     char number[GB_NUMBER_MAX];
     if (!isfinite(value)) {
-        end_cell(sheet);
+        end_cell(listing);
         return;
     }
     if (*format == '\0') {
-        g_string_append(sheet->cells, gb_number_write(value, number));
+        g_string_append(listing->cells, gb_number_write(value, number));
     } else {
-        g_string_append_printf(sheet->cells, format, value);
+        g_string_append_printf(listing->cells, format, value);
     }
-    end_cell(sheet);
+    end_cell(listing);
 }
 
-void gb_sheet_numbers(struct gb_sheet *sheet, const double *value, size_t count)
+void gb_listing_numbers(struct gb_listing *listing, const double *value, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        gb_sheet_number(sheet, value[i]);
+        gb_listing_number(listing, value[i]);
     }
 }
 
-void gb_sheet_whole(struct gb_sheet *sheet, uint64_t value)
+void gb_listing_whole(struct gb_listing *listing, uint64_t value)
 {
-    g_string_append_printf(sheet->cells, "%" PRIu64, value);
-    end_cell(sheet);
+    g_string_append_printf(listing->cells, "%" PRIu64, value);
+    end_cell(listing);
 }
 
-void gb_sheet_text(struct gb_sheet *sheet, const char *text)
+void gb_listing_text(struct gb_listing *listing, const char *text)
 {
-    g_string_append(sheet->cells, text != NULL ? text : "");
-    end_cell(sheet);
+    g_string_append(listing->cells, text != NULL ? text : "");
+    end_cell(listing);
 }
 
 /* --- writing -------------------------------------------------------------------------- */
 
-/* The cells of a sheet in their order. */
+/* The cells of a listing in their order. */
 struct walk {
-    const struct gb_sheet *sheet;
+    const struct gb_listing *listing;
     const char *cell; /* the next */
     size_t row;
 };
 
 static bool has_row(const struct walk *walk)
 {
-    return walk->cell < walk->sheet->cells->str + walk->sheet->cells->len;
+    return walk->cell < walk->listing->cells->str + walk->listing->cells->len;
 }
 
 static const char *take_cell(struct walk *walk)
@@ -200,17 +203,17 @@ static void append_csv_cell(GString *text, const char *cell, bool quoted)
 
 static void print_csv(struct walk *walk, GString *text)
 {
-    const struct gb_sheet *sheet = walk->sheet;
-    const guint columns = sheet->column->len;
+    const struct gb_listing *listing = walk->listing;
+    const guint columns = listing->column->len;
     guint noted = 0;
-    g_string_append(text, sheet->head->str);
+    g_string_append(text, listing->head->str);
     for (guint k = 0; k < columns; k++) {
-        append_csv_cell(text, column_at(sheet, k)->name, sheet->quote);
+        append_csv_cell(text, column_at(listing, k)->name, listing->quote);
         g_string_append_c(text, k + 1 < columns ? ',' : '\n');
     }
     for (;; walk->row++) {
-        for (; noted < sheet->note->len; noted++) {
-            const struct note *note = &g_array_index(sheet->note, struct note, noted);
+        for (; noted < listing->note->len; noted++) {
+            const struct note *note = &g_array_index(listing->note, struct note, noted);
             if (note->row > walk->row) {
                 break;
             }
@@ -221,8 +224,8 @@ static void print_csv(struct walk *walk, GString *text)
         }
         for (guint k = 0; k < columns; k++) {
             const char *cell = take_cell(walk);
-            const bool always = column_at(sheet, k)->format[0] == '"';
-            append_csv_cell(text, cell, sheet->quote || (always && *cell != '\0'));
+            const bool always = column_at(listing, k)->format[0] == '"';
+            append_csv_cell(text, cell, listing->quote || (always && *cell != '\0'));
             g_string_append_c(text, k + 1 < columns ? ',' : '\n');
         }
     }
@@ -230,12 +233,12 @@ static void print_csv(struct walk *walk, GString *text)
 
 static void append_json_text(GString *text, const char *cell)
 {
-    static const char escaped[] = "\"\\\b\f\n\r\t", letter[] = "\"\\bfnrt";
+    static const char escaped[] = "\"\\\b\f\n\r\t", code[] = "\"\\bfnrt";
     g_string_append_c(text, '"');
     for (const char *c = cell; *c != '\0'; c++) {
         const char *found = strchr(escaped, *c);
         if (found != NULL) {
-            g_string_append_printf(text, "\\%c", letter[found - escaped]);
+            g_string_append_printf(text, "\\%c", code[found - escaped]);
         } else if ((unsigned char)*c < 0x20 || *c == 0x7f) {
             g_string_append_printf(text, "\\u%04x", (unsigned)*c);
         } else {
@@ -260,12 +263,12 @@ static void append_json_number(GString *text, const char *cell, bool integer)
 
 static void print_json(struct walk *walk, GString *text)
 {
-    const guint columns = walk->sheet->column->len;
+    const guint columns = walk->listing->column->len;
     g_string_append(text, "{\n  \"rows\" : [");
     for (; has_row(walk); walk->row++) {
         g_string_append(text, walk->row > 0 ? ",\n    {\n" : "\n    {\n");
         for (guint k = 0; k < columns; k++) {
-            const struct column *column = column_at(walk->sheet, k);
+            const struct column *column = column_at(walk->listing, k);
             const char *cell = take_cell(walk);
             g_string_append(text, "      ");
             append_json_text(text, column->name);
@@ -286,9 +289,9 @@ static void print_json(struct walk *walk, GString *text)
 
 static void print_markdown(struct walk *walk, GString *text)
 {
-    const guint columns = walk->sheet->column->len;
+    const guint columns = walk->listing->column->len;
     for (guint k = 0; k < columns; k++) {
-        g_string_append_printf(text, "| %s ", column_at(walk->sheet, k)->name);
+        g_string_append_printf(text, "| %s ", column_at(walk->listing, k)->name);
     }
     g_string_append(text, "|\n");
     for (guint k = 0; k < columns; k++) {
@@ -297,7 +300,7 @@ static void print_markdown(struct walk *walk, GString *text)
     g_string_append(text, "|\n");
     while (has_row(walk)) {
         for (guint k = 0; k < columns; k++) {
-            const bool code = column_at(walk->sheet, k)->format[0] == '`';
+            const bool code = column_at(walk->listing, k)->format[0] == '`';
             g_string_append_printf(text, code ? "| `%s` " : "| %s ", take_cell(walk));
         }
         g_string_append(text, "|\n");
@@ -325,11 +328,11 @@ static void append_aligned(GString *text, const char *cell, size_t width, bool l
 /* Texts on the left, numbers on the right of columns as wide as their widest cell. */
 static void print_text(struct walk *walk, GString *text)
 {
-    const struct gb_sheet *sheet = walk->sheet;
-    const guint columns = sheet->column->len;
+    const struct gb_listing *listing = walk->listing;
+    const guint columns = listing->column->len;
     size_t *width = g_new(size_t, columns);
     for (guint k = 0; k < columns; k++) {
-        width[k] = (size_t)g_utf8_strlen(column_at(sheet, k)->name, -1);
+        width[k] = (size_t)g_utf8_strlen(column_at(listing, k)->name, -1);
     }
     for (struct walk first = *walk; has_row(&first);) {
         for (guint k = 0; k < columns; k++) {
@@ -338,42 +341,42 @@ static void print_text(struct walk *walk, GString *text)
         }
     }
     for (guint k = 0; k < columns; k++) {
-        const struct column *column = column_at(sheet, k);
+        const struct column *column = column_at(listing, k);
         append_aligned(text, column->name, width[k], is_text(column), k + 1 == columns);
     }
     while (has_row(walk)) {
         for (guint k = 0; k < columns; k++) {
             append_aligned(text, shown(take_cell(walk)), width[k],
-                           is_text(column_at(sheet, k)), k + 1 == columns);
+                           is_text(column_at(listing, k)), k + 1 == columns);
         }
     }
     g_free(width);
 }
 
-GString *gb_sheet_print(const struct gb_sheet *sheet, enum gb_sheet_format format)
+GString *gb_listing_print(const struct gb_listing *listing, enum gb_listing_format format)
 {
     static void (*const print[])(struct walk *,
-                                 GString *) = {[GB_SHEET_CSV] = print_csv,
-                                               [GB_SHEET_JSON] = print_json,
-                                               [GB_SHEET_MARKDOWN] = print_markdown,
-                                               [GB_SHEET_TEXT] = print_text};
-    GString *text = g_string_sized_new(sheet->cells->len + sheet->head->len + 1);
-    struct walk walk = {sheet, sheet->cells->str, 0};
+                                 GString *) = {[GB_LISTING_CSV] = print_csv,
+                                               [GB_LISTING_JSON] = print_json,
+                                               [GB_LISTING_MARKDOWN] = print_markdown,
+                                               [GB_LISTING_TEXT] = print_text};
+    GString *text = g_string_sized_new(listing->cells->len + listing->head->len + 1);
+    struct walk walk = {listing, listing->cells->str, 0};
     print[format](&walk, text);
     return text;
 }
 
-GString *gb_sheet_end(struct gb_sheet *sheet, enum gb_sheet_format format)
+GString *gb_listing_end(struct gb_listing *listing, enum gb_listing_format format)
 {
-    GString *text = gb_sheet_print(sheet, format);
-    gb_sheet_free(sheet);
+    GString *text = gb_listing_print(listing, format);
+    gb_listing_free(listing);
     return text;
 }
 
-bool gb_sheet_store(struct gb_sheet *sheet, const char *directory, const char *name,
-                    struct gb_error *err)
+bool gb_listing_store(struct gb_listing *listing, const char *directory, const char *name,
+                      struct gb_error *err)
 {
-    GString *text = gb_sheet_end(sheet, GB_SHEET_CSV);
+    GString *text = gb_listing_end(listing, GB_LISTING_CSV);
     char *path = g_build_filename(directory, name, NULL);
     const bool good = gb_file_replace(path, text->str, text->len, err);
     g_free(path);
