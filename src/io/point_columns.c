@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PLACE(name)  .member = #name, .offset = offsetof(struct gb_point, name)
-#define BRANCH(name) PLACE(name), .count = 1, .type = 'i', .scenes = GB_POINT_ALL
-#define WHOLE(name)  PLACE(name), .count = 1, .type = 'q', .scenes = GB_POINT_ALL
+#define MEMBER_AT(name)  .member = #name, .offset = offsetof(struct gb_point, name)
+#define BRANCH(name) MEMBER_AT(name), .count = 1, .type = 'i', .scenes = GB_POINT_ALL
+#define WHOLE(name)  MEMBER_AT(name), .count = 1, .type = 'q', .scenes = GB_POINT_ALL
 #define NUMBERS(name, of)                                                                \
-    PLACE(name), .count = sizeof(((struct gb_point *)0)->name) / sizeof(double),         \
+    MEMBER_AT(name), .count = sizeof(((struct gb_point *)0)->name) / sizeof(double),         \
                  .type = 'd', .scenes = GB_POINT_##of
 #define COLUMNS(names, unit_in_si) .columns = names, .si = unit_in_si
 #define KEPT(name, unit_of_item, of)                                                     \

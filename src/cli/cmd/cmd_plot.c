@@ -49,7 +49,7 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
         char *names = gb_figures_names(0), meant[64];
         gb_error_set(
             err, GB_ERR_INPUT,
-            "--figure %.80s: %saccepted a name that greenbody plot --help lists, "
+            "--figure %.80s: %sexpected a name that greenbody plot --help lists, "
             "as time or densification",
             name ? name : "",
             gb_nearest_word_in(name ? name : "", names, meant, sizeof meant));

@@ -99,7 +99,7 @@ static const struct gb_field *find_short(const char *name, struct gb_error *err)
     }
     if (matches == 0) {
         char meant[128];
-        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such key; %saccepted group.key, as contact.mu",
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such key; %sexpected group.key, as contact.mu",
                      name, gb_nearest_key(name, meant, sizeof meant));
     } else if (matches > 1) {
         gb_error_set(err, GB_ERR_INPUT, "%.80s: must be one of %s", name, found->str);
