@@ -65,7 +65,7 @@ static bool exchange(struct gb_point *point, size_t first, int count, const char
                      struct gb_record *record, struct gb_error *err)
 {
     double value[GB_POINT_ALL_COLUMNS];
-    const bool missing = record->loading && !gb_record_find(record, name);
+    const bool missing = first > 0 && record->loading && !gb_record_find(record, name);
     for (int k = 0; k < count; k++) {
         /* the sign of 0/0 is the compiler's choice: a missing value has no sign */
         const double member = *gb_point_columns_member(point, first + (size_t)k);

@@ -25,7 +25,7 @@ double gb_point_columns_factor(size_t k);
 /* The point's member. */
 double *gb_point_columns_member(struct gb_point *point, size_t k);
 /* Those of a cell as one item of a record, out of the point or into it, those of a die, and
- * those of strain steps.  Records of earlier versions have none: NaN. */
+ * those of strain steps.  The last two are NaN from a record that has none. */
 bool gb_point_columns_record(struct gb_point *point, const char *name,
                              struct gb_record *record, struct gb_error *err);
 bool gb_point_columns_record_die(struct gb_point *point, const char *name,

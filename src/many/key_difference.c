@@ -4,9 +4,8 @@
 
 /* Keys that make no other experiment: what is drawn by lot, and what changes no result.
  */
-static const char *const bookkeeping[] = {"structure.seed", "structure.generator",
-                                          "scene.title",    "numerics.threads",
-                                          "output.",        NULL};
+static const char *const bookkeeping[] = {"structure.seed", "scene.title",
+                                          "numerics.threads", "output.", NULL};
 
 static bool is_listed(const struct gb_field *field, const char *const *list)
 {

@@ -39,6 +39,7 @@
 
 static const struct gb_record_member members[] = {
     {"run/step", GB_RECORD_INT64, 1, AT(step), "1"},
+    {"run/unrelaxed", GB_RECORD_INT64, 1, AT(unrelaxed), "1"},
     {"run/over", GB_RECORD_BOOL, 1, AT(over), "1"},
     {"run/elastic_start", GB_RECORD_DOUBLE, 1, AT(elastic_start), "E d^3"},
     POINT(point),
@@ -72,21 +73,11 @@ static bool record_points(struct gb_experiment *experiment, struct gb_record *re
              gb_point_columns_record_die(&experiment->shown, "shown/die", record, err)));
 }
 
-/* Checkpoints of earlier versions have not counted them. */
-static bool record_unrelaxed(struct gb_experiment *experiment, struct gb_record *record,
-                             struct gb_error *err)
-{
-    const bool missing = record->loading && !gb_record_find(record, "run/unrelaxed");
-    return missing || gb_record_array(record, "run/unrelaxed", GB_RECORD_INT64, 1, 1, "1",
-                                      &experiment->unrelaxed, err);
-}
-
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,
                         struct gb_error *err)
 {
     gb_record_clear(record);
     return record_points(experiment, record, err) &&
-           record_unrelaxed(experiment, record, err) &&
            gb_loading_record(experiment->loading, record, err);
 }
 
@@ -94,8 +85,7 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
                         struct gb_error *err)
 {
     record->loading = true;
-    if (!record_points(experiment, record, err) ||
-        !record_unrelaxed(experiment, record, err)) {
+    if (!record_points(experiment, record, err)) {
         return false;
     }
     if (experiment->step < 0 || experiment->step > step_max) {

@@ -58,7 +58,7 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
 
 static void print_row(const struct gb_model *model, double count)
 {
-    gb_visible_print(stdout, "%" PRIu64 ",%.0f,%.6f\n", model->seed.value, count,
+    gb_visible_print(stdout, "%" PRIu64 ",%.0f,%.6f\n", model->seed, count,
                      density_of(model, count));
 }
 

@@ -67,18 +67,17 @@ static bool take_point(const struct gb_record *record, struct gb_point *point,
     return done;
 }
 
-/* What records of scenes without shear, or of earlier versions, lack. */
+/* The tensors, and the tilt of scenes that shear. */
 static bool take_tensors(const struct gb_record *record, struct gb_state *state,
                          struct gb_error *err)
 {
     double value[GB_POINT_COLUMNS];
-    const bool known = gb_record_find(record, "shown/tensors") != NULL;
-    if (known && !take(record, "shown/tensors", GB_RECORD_DOUBLE, 1, GB_POINT_COLUMNS,
-                       value, err)) {
+    if (!take(record, "shown/tensors", GB_RECORD_DOUBLE, 1, GB_POINT_COLUMNS, value,
+              err)) {
         return false;
     }
     for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
-        *gb_point_columns_member(&state->point, k) = known ? value[k] : (double)NAN;
+        *gb_point_columns_member(&state->point, k) = value[k];
     }
     return !gb_record_find(record, "world/tilt") ||
            take(record, "world/tilt", GB_RECORD_DOUBLE, 1, 3, state->tilt, err);
@@ -117,7 +116,7 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     state->pascal_per_stress = model->pascal_per_stress;
     state->second_per_time = second_per_time(model);
     gb_state_record_model(state, model);
-    state->seed = model->seed.value;
+    state->seed = model->seed;
     snprintf(state->preset, sizeof state->preset, "%s", params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }
@@ -173,21 +172,17 @@ static void copy_spheres(struct gb_state *state, const double (*position)[4],
     }
 }
 
-/* The die of the record, without a funnel, as points come after it; bores of earlier versions
- * are endless. */
+/* The die of the record, without a funnel, as points come after it. */
 static bool take_die(const struct gb_record *record, const struct gb_model *model,
                      struct gb_die *die, struct gb_error *err)
 {
     *die = (struct gb_die){.radius = model->die.radius, .punch = true};
     int32_t bore = GB_DIE_BORE_ENDLESS;
     if (!take(record, "bed/punch_place", GB_RECORD_DOUBLE, 1, 1, &die->punch_position,
-              err)) {
-        return false;
-    }
-    if (gb_record_find(record, "bed/bore") &&
-        (!take(record, "bed/bore", GB_RECORD_INT32, 1, 1, &bore, err) ||
-         !take(record, "bed/top", GB_RECORD_DOUBLE, 1, 1, &die->top, err) ||
-         !take(record, "bed/punch", GB_RECORD_BOOL, 1, 1, &die->punch, err))) {
+              err) ||
+        !take(record, "bed/bore", GB_RECORD_INT32, 1, 1, &bore, err) ||
+        !take(record, "bed/top", GB_RECORD_DOUBLE, 1, 1, &die->top, err) ||
+        !take(record, "bed/punch", GB_RECORD_BOOL, 1, 1, &die->punch, err)) {
         return false;
     }
     die->bore = (enum gb_die_bore)bore;

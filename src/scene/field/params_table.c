@@ -14,7 +14,6 @@ static const char *const normals[] = {"rod", "hertz", "storakers", NULL};
 static const char *const storakers[] = {"capped", "printed", NULL};
 static const char *const structures[] = {"grown",   "sc",     "fcc",       "bcc",
                                          "diamond", "square", "hexagonal", NULL};
-static const char *const generators[] = {"philox", "mt19937", NULL};
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
 static const char *const viscous[] = {"all", "translation", "normal", NULL};
@@ -228,11 +227,6 @@ static const struct gb_field rows[] = {
      .source = "P1 III: 0"},
     {"structure", "seed", GB_FIELD_SEED, AT(seed), .fallback = "1",
      .meaning = "seed of the random number generator", .source = "numerical"},
-    {"structure", "generator", GB_FIELD_CHOICE, AT(generator), .choices = generators,
-     .fallback = "philox",
-     .meaning = "random numbers of the structure; mt19937 is that of version 0.1, which "
-                "folds seeds to 32 bits",
-     .source = "Salmon et al. 2011"},
 
     {"die", "diameter", GB_FIELD_NUMBER, AT(die_diameter_m), .dimension = GB_DIM_LENGTH,
      RANGE(1e-9, 1.0), .fallback = "58 um", .meaning = "diameter of the cylinder",
