@@ -255,6 +255,14 @@ struct gb_field {
     const char *fallback; /* default as typed in a preset */
     const char *meaning;  /* one sentence */
     const char *source;   /* paper and equation, or "numerical" */
+    /* Markup with <i>, <sub> and <sup>, quantities in italics (ISO 80000-1); NULL: none. */
+    const char *symbol;
+    const char *words; /* synonyms, "friction, sliding friction"; NULL: none */
+    unsigned kinds;    /* bits of enum gb_kind that use the key; 0: all */
+    unsigned laws;     /* bits of enum gb_normal that use the key; 0: all */
+    bool (*applies)(const struct gb_params *params); /* further condition; NULL: none */
+    bool may_change; /* during a run, by loading.changes */
+    bool no_result;  /* changes no result: runs resume with another value */
 };
 
 /* The field table and its length. */

@@ -23,13 +23,6 @@ static const struct gb_record_member members[] = {
 
 enum { MEMBERS = sizeof members / sizeof members[0] };
 
-/* Parameters that may change from stop to resume: they change no result. */
-static bool is_free(const struct gb_field *field)
-{
-    return strcmp(field->group, "output") == 0 || strcmp(field->key, "threads") == 0 ||
-           strcmp(field->key, "title") == 0;
-}
-
 /* Adds "group.key" and value of a key that differs from its default. */
 static void add_key(GChecksum *sum, const struct gb_params *params,
                     const struct gb_params *defaults, const struct gb_field *field)
@@ -37,7 +30,7 @@ static void add_key(GChecksum *sum, const struct gb_params *params,
     char value[GB_PARAMS_VALUE_MAX], usual[GB_PARAMS_VALUE_MAX];
     gb_params_format(params, field, value, sizeof value);
     gb_params_format(defaults, field, usual, sizeof usual);
-    if (is_free(field) || strcmp(value, usual) == 0) {
+    if (field->no_result || strcmp(value, usual) == 0) {
         return;
     }
     if (field->type == GB_FIELD_PACKING) { /* wherever the file is */
