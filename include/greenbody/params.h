@@ -32,12 +32,6 @@ enum gb_normal {
     GB_NORMAL_LAWS /* number of laws */
 };
 enum gb_storakers { GB_STORAKERS_CAPPED, GB_STORAKERS_PRINTED };
-/* Random number generator of an initial structure. */
-enum gb_generator {
-    GB_GENERATOR_PHILOX, /* philox4x32-10, all 64 bits of the seed */
-    GB_GENERATOR_MT19937 /* of version 0.1 */
-};
-
 enum gb_structure {
     GB_STRUCTURE_GROWN,
     GB_STRUCTURE_SC,
@@ -172,7 +166,6 @@ struct gb_params {
     struct gb_relative base;  /* relative and 0: auto, aspect ratio of P1 */
     struct gb_relative r_meso;
     double single_contact; /* fraction of particles placed in contact with one other */
-    int generator;         /* enum gb_generator */
     uint64_t seed;
     /* [die] */
     double die_diameter_m;
@@ -262,6 +255,14 @@ struct gb_field {
     const char *fallback; /* default as typed in a preset */
     const char *meaning;  /* one sentence */
     const char *source;   /* paper and equation, or "numerical" */
+    /* Markup with <i>, <sub> and <sup>, quantities in italics (ISO 80000-1); NULL: none. */
+    const char *symbol;
+    const char *words; /* synonyms, "friction, sliding friction"; NULL: none */
+    unsigned kinds;    /* bits of enum gb_kind that use the key; 0: all */
+    unsigned laws;     /* bits of enum gb_normal that use the key; 0: all */
+    bool (*applies)(const struct gb_params *params); /* further condition; NULL: none */
+    bool may_change; /* during a run, by loading.changes */
+    bool no_result;  /* changes no result: runs resume with another value */
 };
 
 /* The field table and its length. */

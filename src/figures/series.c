@@ -12,7 +12,6 @@
 #include "base/text/visible.h"
 #include "many/runset.h"
 #include "measure/fit/average.h"
-#include "scene/field/field_symbol.h"
 #include "scene/loading_kind.h"
 
 static bool refuse(const struct gb_runset_run *run, const char *kind, const char *figure,
@@ -137,7 +136,7 @@ static const char *short_form(const char *key)
 static char *symbol_of(const char *name)
 {
     const struct gb_field *field = gb_params_find_name(name, NULL);
-    const char *symbol = field != NULL ? gb_field_symbol(field) : NULL;
+    const char *symbol = field != NULL ? field->symbol : NULL;
     const char *dot = strchr(name, '.');
     return symbol != NULL ? g_strdup(symbol)
                           : g_markup_escape_text(dot ? dot + 1 : name, -1);

@@ -7,7 +7,7 @@
 
 /* Raised whenever the members of a record change their meaning: a resumed run must be the
  * same run, so no other layout is read. */
-static const int32_t layout_number = 2;
+static const int32_t layout_number = 3;
 
 static const char group[] = "/checkpoint";
 
@@ -57,7 +57,7 @@ bool gb_hdf_record_put(struct gb_hdf *file, const struct gb_record *record,
         snprintf(name, sizeof name, "%s/%s", group, item->name);
         const struct gb_hdf_array array = {.name = name,
                                            .type = item->f32 ? GB_HDF_FLOAT
-                                                                : hdf_type(item->type),
+                                                             : hdf_type(item->type),
                                            .rows = item->rows,
                                            .columns = item->columns,
                                            .unit = item->unit};
@@ -72,7 +72,7 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
     if (!gb_hdf_list_has(file, group)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "%s: keeps a packing but no checkpoint, so no run can "
-                            "continue from it (written by pack or by an older version)",
+                            "continue from it (written by pack)",
                             path);
     }
     if (!gb_hdf_attributes_get_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,

@@ -15,7 +15,7 @@
 #define KEPT(name, unit_of_item, of)                                                     \
     .item = name, .unit = unit_of_item, .kept = GB_POINT_##of
 /* Successive rows of one name share an item. */
-#define ADDED(name, of) KEPT(name, "SI", of), .later = true
+#define TOGETHER(name, of) KEPT(name, "SI", of)
 #define STATE(name)     .state = name
 
 static const struct gb_point_column table[] = {
@@ -69,31 +69,31 @@ static const struct gb_point_column table[] = {
      KEPT("wanted", "Pa", ALL)},
     {NUMBERS(floor_over_punch, DIE), COLUMNS("floor_over_punch", 1.0),
      KEPT("floor_over_punch", "1", ALL)},
-    {NUMBERS(floor_pa, DIE), COLUMNS("floor_MPa", 1e6), ADDED("die", DIE)},
-    {NUMBERS(wall_pa, DIE), COLUMNS("wall_MPa", 1e6), ADDED("die", DIE)},
+    {NUMBERS(floor_pa, DIE), COLUMNS("floor_MPa", 1e6), TOGETHER("die", DIE)},
+    {NUMBERS(wall_pa, DIE), COLUMNS("wall_MPa", 1e6), TOGETHER("die", DIE)},
     {NUMBERS(wall_third_pa, DIE),
-     COLUMNS("wall_low_MPa,wall_middle_MPa,wall_high_MPa", 1e6), ADDED("die", DIE)},
-    {NUMBERS(wall_friction_n, DIE), COLUMNS("wall_friction_mN", 1e-3), ADDED("die", DIE)},
-    {NUMBERS(punch_work, DIE), COLUMNS("punch_work_J", 1.0), ADDED("die", DIE)},
+     COLUMNS("wall_low_MPa,wall_middle_MPa,wall_high_MPa", 1e6), TOGETHER("die", DIE)},
+    {NUMBERS(wall_friction_n, DIE), COLUMNS("wall_friction_mN", 1e-3), TOGETHER("die", DIE)},
+    {NUMBERS(punch_work, DIE), COLUMNS("punch_work_J", 1.0), TOGETHER("die", DIE)},
     {NUMBERS(axial_springback, DIE), COLUMNS("axial_springback_percent", 1e-2),
-     ADDED("die", DIE)},
+     TOGETHER("die", DIE)},
     {NUMBERS(radial_springback, DIE), COLUMNS("radial_springback_percent", 1e-2),
-     ADDED("die", DIE)},
-    {NUMBERS(welded, DIE), COLUMNS("welded", 1.0), ADDED("die", DIE)},
+     TOGETHER("die", DIE)},
+    {NUMBERS(welded, DIE), COLUMNS("welded", 1.0), TOGETHER("die", DIE)},
 
     {NUMBERS(shear_pa, CELL), COLUMNS("pxy_MPa,pxz_MPa,pyz_MPa", 1e6),
-     ADDED("tensors", ALL), STATE("shear_stress_pa"), .layout = 4},
-    {NUMBERS(q_pa, CELL), COLUMNS("q_MPa", 1e6), ADDED("tensors", ALL)},
-    {NUMBERS(asymmetry, CELL), COLUMNS("asymmetry", 1.0), ADDED("tensors", ALL)},
+     TOGETHER("tensors", ALL), STATE("shear_stress_pa")},
+    {NUMBERS(q_pa, CELL), COLUMNS("q_MPa", 1e6), TOGETHER("tensors", ALL)},
+    {NUMBERS(asymmetry, CELL), COLUMNS("asymmetry", 1.0), TOGETHER("tensors", ALL)},
     {NUMBERS(strain, CELL), COLUMNS("exx,eyy,ezz,gxy,gxz,gyz", 1.0),
-     ADDED("tensors", ALL), STATE("strain"), .layout = 4},
+     TOGETHER("tensors", ALL), STATE("strain")},
     {NUMBERS(fabric, CELL), COLUMNS("fxx,fyy,fzz,fxy,fxz,fyz", 1.0),
-     ADDED("tensors", ALL), STATE("fabric"), .layout = 4},
+     TOGETHER("tensors", ALL), STATE("fabric")},
     {NUMBERS(anisotropy, CELL),
      COLUMNS("anisotropy,anisotropy_bridged,anisotropy_tension,anisotropy_force", 1.0),
-     ADDED("tensors", ALL)},
-    {NUMBERS(leg, CELL), COLUMNS("leg", 1.0), ADDED("tensors", ALL)},
-    {NUMBERS(unrelaxed, STILL), COLUMNS("unrelaxed", 1.0), ADDED("unrelaxed", STILL)},
+     TOGETHER("tensors", ALL)},
+    {NUMBERS(leg, CELL), COLUMNS("leg", 1.0), TOGETHER("tensors", ALL)},
+    {NUMBERS(unrelaxed, STILL), COLUMNS("unrelaxed", 1.0), TOGETHER("unrelaxed", STILL)},
 };
 
 enum { ROWS = sizeof table / sizeof table[0] };
@@ -220,20 +220,15 @@ bool gb_point_columns_load(struct gb_point *point, const char *prefix,
         end = rows_of(r, &numbers);
         snprintf(name, sizeof name, "%s/%s", prefix, row->item);
         const struct gb_record_item *item = gb_record_find(record, name);
-        const bool missing = item == NULL && row->later;
-        if (!missing && (item == NULL || item->type != type_of(row) || item->rows != 1 ||
-                         item->columns != numbers || item->f32)) {
+        if (item == NULL || item->type != type_of(row) || item->rows != 1 ||
+            item->columns != numbers || item->f32) {
             return gb_error_set(err, GB_ERR_INPUT, "%s: is missing or of another shape",
                                 name);
         }
-        const char *from = missing ? NULL : item->data;
+        const char *from = item->data;
         for (size_t k = r; k < end && (row->scenes >> scene & 1U) != 0; k++) {
-            if (missing) {
-                put_nan(&table[k], point);
-            } else {
-                memcpy((char *)point + table[k].offset, from, size_of(&table[k]));
-                from += size_of(&table[k]);
-            }
+            memcpy((char *)point + table[k].offset, from, size_of(&table[k]));
+            from += size_of(&table[k]);
         }
     }
     return true;

@@ -35,14 +35,11 @@ struct gb_point_column {
     double si, times;
     int decimals; /* 0: as many as the number needs */
     /* Item of a checkpoint, its unit, and the scenes whose checkpoints have it.  Successive
-     * rows with one item share it.  later: checkpoints of earlier versions lack it. */
+     * rows with one item share it. */
     const char *item, *unit;
     unsigned kept;
-    bool later;
-    /* Name in state.h5 (NULL: none), the first layout with it, and a value that makes a
-     * state unreadable if it is infinite. */
+    /* Name in state.h5 (NULL: none); finite: an infinite value makes a state unreadable. */
     const char *state;
-    int layout;
     bool finite;
     const char *status; /* name in status.json; NULL: none */
 };
@@ -64,8 +61,8 @@ void gb_point_columns_clear(struct gb_point *point);
 bool gb_point_columns_save(const struct gb_point *point, const char *prefix,
                            enum gb_curve_columns scene, struct gb_record *record,
                            struct gb_error *err);
-/* Loads the members that this kind of scene measures; the others stay as they are.  A
- * missing item is NaN if earlier versions lack it.  Errors: GB_ERR_INPUT. */
+/* Loads the members that this kind of scene measures; the others stay as they are.  Errors:
+ * GB_ERR_INPUT. */
 bool gb_point_columns_load(struct gb_point *point, const char *prefix,
                            enum gb_curve_columns scene, const struct gb_record *record,
                            struct gb_error *err);

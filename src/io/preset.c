@@ -16,7 +16,6 @@
 #include "io/key_lines.h"
 #include "io/preset_folders.h"
 #include "io/text_file.h"
-#include "scene/field/first_defaults.h"
 #include "scene/size/size_table.h"
 
 /* A preset is a page of text; more is a mistake or an attack. */
@@ -209,24 +208,25 @@ void gb_preset_destroy(struct gb_preset *preset)
     g_free(preset);
 }
 
-/* What keys that the text lacks mean. */
-static void init_params(struct gb_params *params, const struct gb_preset *preset)
+/* Complete presets of version 0.1 would give another packing: its random numbers are gone. */
+static bool check_version(const char *path, const char *text, struct gb_error *err)
 {
-    if (gb_first_defaults_meant(preset->text->str)) {
-        gb_first_defaults_init(params);
-    } else {
-        gb_params_init(params);
-    }
+    return !g_str_has_prefix(text, "# greenbody 0.1.") ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%s:1: greenbody 0.1: expected a preset of 0.2 or later; without "
+                        "this line it gives another packing of the same kind",
+                        path);
 }
 
 static bool load_path(struct gb_preset *preset, const char *path, struct gb_error *err)
 {
     g_free(preset->path);
     preset->path = g_strdup(path);
-    if (!read_file(path, preset->text, err)) {
+    if (!read_file(path, preset->text, err) ||
+        !check_version(path, preset->text->str, err)) {
         return false;
     }
-    init_params(&preset->params, preset);
+    gb_params_init(&preset->params);
     return gb_key_lines_init(&preset->lines, path, preset->text->str, preset->text->len,
                              err) &&
            apply(preset, err);
@@ -331,12 +331,11 @@ static bool has_value(const struct gb_preset *preset, const struct gb_key_line *
            strcmp(gb_params_format(&then, field, written, sizeof written), now) == 0;
 }
 
-static bool is_fallback(const struct gb_preset *preset, const struct gb_field *field,
-                        const char *now)
+static bool is_fallback(const struct gb_field *field, const char *now)
 {
     struct gb_params initial;
     char written[GB_PARAMS_VALUE_MAX];
-    init_params(&initial, preset);
+    gb_params_init(&initial);
     return strcmp(gb_params_format(&initial, field, written, sizeof written), now) == 0;
 }
 
@@ -374,7 +373,7 @@ static bool update_field(struct gb_preset *preset, const struct gb_field *field,
     const struct gb_key_line *line =
         gb_key_lines_find(&preset->lines, field->group, field->key);
     if (line ? has_value(preset, line, field, path, now)
-             : extent == GB_PRESET_CHANGED_KEYS && is_fallback(preset, field, now)) {
+             : extent == GB_PRESET_CHANGED_KEYS && is_fallback(field, now)) {
         return true;
     }
     if (line) {

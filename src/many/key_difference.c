@@ -2,12 +2,6 @@
 
 #include <string.h>
 
-/* Keys that make no other experiment: what is drawn by lot, and what changes no result.
- */
-static const char *const bookkeeping[] = {"structure.seed", "structure.generator",
-                                          "scene.title",    "numerics.threads",
-                                          "output.",        NULL};
-
 static bool is_listed(const struct gb_field *field, const char *const *list)
 {
     for (size_t i = 0; list[i] != NULL; i++) {
@@ -21,9 +15,10 @@ static bool is_listed(const struct gb_field *field, const char *const *list)
     return false;
 }
 
+/* What is drawn by lot, and what changes no result. */
 bool gb_key_difference_bookkeeping(const struct gb_field *field)
 {
-    return is_listed(field, bookkeeping);
+    return field->no_result || field->type == GB_FIELD_SEED;
 }
 
 /* As a preset would write them: equal texts are equal values. */

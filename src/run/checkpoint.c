@@ -9,6 +9,7 @@
 
 static const struct gb_record_member members[] = {
     {"run/step", GB_RECORD_INT64, 1, AT(step), "1"},
+    {"run/unrelaxed", GB_RECORD_INT64, 1, AT(unrelaxed), "1"},
     {"run/over", GB_RECORD_BOOL, 1, AT(over), "1"},
     {"run/elastic_start", GB_RECORD_DOUBLE, 1, AT(elastic_start), "E d^3"},
 };
@@ -20,15 +21,6 @@ static const int64_t step_max = INT64_C(1) << 53;
 
 enum { MEMBERS = sizeof members / sizeof members[0] };
 
-/* Checkpoints of earlier versions have not counted them. */
-static bool record_unrelaxed(struct gb_experiment *experiment, struct gb_record *record,
-                             struct gb_error *err)
-{
-    const bool missing = record->loading && !gb_record_find(record, "run/unrelaxed");
-    return missing || gb_record_array(record, "run/unrelaxed", GB_RECORD_INT64, 1, 1, "1",
-                                      &experiment->unrelaxed, err);
-}
-
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,
                         struct gb_error *err)
 {
@@ -37,7 +29,6 @@ bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *reco
     return gb_record_members(record, members, MEMBERS, experiment, err) &&
            gb_point_columns_save(&experiment->point, "point", scene, record, err) &&
            gb_point_columns_save(&experiment->shown, "shown", scene, record, err) &&
-           record_unrelaxed(experiment, record, err) &&
            gb_loading_record(experiment->loading, record, err);
 }
 
@@ -50,8 +41,7 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
     gb_point_columns_clear(&experiment->shown);
     if (!gb_record_members(record, members, MEMBERS, experiment, err) ||
         !gb_point_columns_load(&experiment->point, "point", scene, record, err) ||
-        !gb_point_columns_load(&experiment->shown, "shown", scene, record, err) ||
-        !record_unrelaxed(experiment, record, err)) {
+        !gb_point_columns_load(&experiment->shown, "shown", scene, record, err)) {
         return false;
     }
     if (experiment->step < 0 || experiment->step > step_max) {

@@ -388,7 +388,7 @@ bool gb_packing_state_copy(const struct gb_loading *loading, struct gb_state **o
     gb_state_record_model(state, model);
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
-    state->seed = model->seed.value;
+    state->seed = model->seed;
     snprintf(state->preset, sizeof state->preset, "%s", loading->params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
     return true;

@@ -7,49 +7,7 @@
 
 #include "scene/die_scene.h"
 #include "scene/dynamic_scene.h"
-#include "scene/field/field.h"
 #include "scene/quasistatic_scene.h"
-
-static const char *const quasistatic_fields[] = {
-    "scene.dimension",
-    "structure.kind",
-    "structure.overlap",
-    "structure.density",
-    "structure.base",
-    "structure.r_meso",
-    "structure.single_contact",
-    "loading.step",
-    "loading.unload_from",
-    "loading.path",
-    "loading.on_collapse",
-    "numerics.relaxer",
-    "numerics.tolerance",
-    "numerics.tolerance_scale",
-    "numerics.max_evaluations",
-    "numerics.precision",
-    NULL,
-};
-
-static const char *const dynamic_fields[] = {
-    "scene.dimension",     "material.density",
-    "contact.viscosity",   "contact.viscous_forces",
-    "structure.kind",      "structure.overlap",
-    "structure.density",   "structure.base",
-    "structure.r_meso",    "structure.single_contact",
-    "loading.rate",        "loading.relax",
-    "loading.hold",        "loading.record",
-    "loading.record_time", "numerics.time_step",
-    "numerics.step_error", NULL,
-};
-
-static const char *const die_fields[] = {
-    "material.density",       "contact.mu_wall",
-    "contact.damping",        "die",
-    "loading.ramp",           "loading.time",
-    "numerics.safety",        "loading.record_pressure",
-    "loading.unload_time",    "loading.rest_time",
-    "numerics.inertia_scale", NULL,
-};
 
 #define NORMAL(law) (1u << GB_NORMAL_##law)
 
@@ -59,7 +17,6 @@ const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS] = {
             .name = "quasistatic",
             .doc = "a periodic cell is strained in steps and relaxed after each; "
                    "P1 III",
-            .fields = quasistatic_fields,
             .normals = NORMAL(ROD) | NORMAL(HERTZ),
             .columns = GB_COLUMNS_COMMON,
             .periodic_cell = true,
@@ -77,7 +34,6 @@ const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS] = {
             .name = "dynamic",
             .doc = "a periodic cell is compressed at a given rate, particles obey "
                    "Newton's equations; P2 (1)",
-            .fields = dynamic_fields,
             .normals = NORMAL(ROD),
             .columns = GB_COLUMNS_ENERGY,
             .periodic_cell = true,
@@ -93,7 +49,6 @@ const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS] = {
         {
             .name = "die",
             .doc = "powder is poured into a die and pressed by a punch; P3 5",
-            .fields = die_fields,
             .normals = NORMAL(HERTZ) | NORMAL(STORAKERS),
             .columns = GB_COLUMNS_DIE,
             .follows_time = true,
@@ -171,14 +126,4 @@ bool gb_loading_kind_check_cell(const struct gb_params *params, const char *what
                         "scene.kind = %s: %s needs a periodic cell, scene.kind = %s",
                         kind->name, what,
                         gb_loading_kind_names(has_cell, names, sizeof names));
-}
-
-bool gb_loading_kind_uses(const struct gb_loading_kind *kind,
-                          const struct gb_field *field)
-{
-    bool special = false;
-    for (int k = 0; k < GB_LOADING_KINDS; k++) {
-        special = special || gb_field_listed(field, gb_loading_kind_table[k].fields);
-    }
-    return !special || gb_field_listed(field, kind->fields);
 }

@@ -23,9 +23,6 @@ enum gb_curve_columns {
 struct gb_loading_kind {
     const char *name; /* as in scene.kind */
     const char *doc;
-    /* "group.key", or "group" for all of its keys, of the fields that only some kinds
-     * use; NULL-terminated.  A field that no kind lists belongs to all of them. */
-    const char *const *fields;
     unsigned normals; /* bit enum gb_normal: laws that contact.normal accepts */
     enum gb_curve_columns columns;
     bool periodic_cell;      /* a periodic cell; else a die with walls */
@@ -69,9 +66,5 @@ bool gb_loading_kind_check_cell(const struct gb_params *params, const char *what
 /* Names of the kinds with a property, "quasistatic or dynamic".  Returns buffer. */
 char *gb_loading_kind_names(bool (*has)(const struct gb_loading_kind *kind), char *buffer,
                             size_t size);
-
-/* Does a kind use this field?  True for fields that no kind lists. */
-bool gb_loading_kind_uses(const struct gb_loading_kind *kind,
-                          const struct gb_field *field);
 
 #endif

@@ -10,7 +10,6 @@
 #include "law/law_rod.h"
 #include "law/law_slip.h"
 #include "scene/path/path.h"
-#include "scene/seed.h"
 #include "scene/size/sizes.h"
 
 struct gb_imported;
@@ -89,7 +88,7 @@ struct gb_model {
     int normal; /* enum gb_normal */
     int dimension;
     int64_t count;
-    struct gb_seed seed;
+    uint64_t seed;
     double edges[3]; /* initial cell, d */
     double start_density;
     int structure;                     /* enum gb_structure */

@@ -1,6 +1,5 @@
 #include "scene/normal_law.h"
 
-#include "scene/field/field.h"
 #include "scene/model.h"
 #include "scene/tolerances.h"
 
@@ -36,39 +35,16 @@ static void freeze_hertz(struct gb_model *model, const struct gb_params *params)
     freeze_cohesionless(model);
 }
 
-static const char *const rod_fields[] = {
-    "material.d0",
-    "material.n_d0_cubed",
-    "material.epsilon",
-    "contact.alpha",
-    "contact.mu_pivot",
-    "contact.bridge_length",
-    "contact.shear_strength",
-    "contact.bridge_radius",
-    "contact.relative_motion",
-    "numerics.cutoff",
-    NULL,
-};
-
-static const char *const storakers_fields[] = {
-    "material.yield",      "material.hardening", "material.hollomon",
-    "contact.shear_ratio", "contact.storakers",  NULL,
-};
-
-static const char *const no_fields[] = {NULL};
-
 static const struct gb_normal_law rows[GB_NORMAL_LAWS] = {
     [GB_NORMAL_ROD] =
         {
             .name = "rod",
-            .fields = rod_fields,
             .force = rod_force,
             .stiffness = rod_stiffness,
         },
     [GB_NORMAL_HERTZ] =
         {
             .name = "hertz",
-            .fields = no_fields,
             .one_size = true,
             .pair = true,
             .freeze = freeze_hertz,
@@ -78,7 +54,6 @@ static const struct gb_normal_law rows[GB_NORMAL_LAWS] = {
     [GB_NORMAL_STORAKERS] =
         {
             .name = "storakers",
-            .fields = storakers_fields,
             .pair = true,
         },
 };
@@ -91,15 +66,6 @@ const struct gb_normal_law *gb_normal_law_at(int normal)
 const struct gb_normal_law *gb_normal_law_of(const struct gb_params *params)
 {
     return gb_normal_law_at(params->normal);
-}
-
-bool gb_normal_law_uses(const struct gb_normal_law *law, const struct gb_field *field)
-{
-    bool listed = false;
-    for (int i = 0; i < GB_NORMAL_LAWS; i++) {
-        listed = listed || gb_field_listed(field, rows[i].fields);
-    }
-    return !listed || gb_field_listed(field, law->fields);
 }
 
 double gb_normal_law_force(const struct gb_model *model, double h)

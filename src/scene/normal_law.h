@@ -12,11 +12,8 @@ struct gb_model;
  * kinds of scenes accept a law is a property of the kind (loading_kind.h). */
 struct gb_normal_law {
     const char *name; /* as in contact.normal */
-    /* "group.key" of the fields that only some laws use; NULL-terminated.  A field that no
-     * law lists belongs to all of them. */
-    const char *const *fields;
-    bool one_size; /* particles of one size only */
-    bool pair;     /* two bodies of any sizes, in SI: scene/contact_pair.h */
+    bool one_size;    /* particles of one size only */
+    bool pair;        /* two bodies of any sizes, in SI: scene/contact_pair.h */
     /* The law's part of the model of a periodic cell, after the constants of the rod law;
      * NULL: nothing else. */
     void (*freeze)(struct gb_model *model, const struct gb_params *params);
@@ -29,9 +26,6 @@ struct gb_normal_law {
 /* The row of a law (enum gb_normal), or of the scene of these parameters. */
 const struct gb_normal_law *gb_normal_law_at(int normal);
 const struct gb_normal_law *gb_normal_law_of(const struct gb_params *params);
-
-/* Does the law of the scene use this field?  True for fields that no law lists. */
-bool gb_normal_law_uses(const struct gb_normal_law *law, const struct gb_field *field);
 
 /* The law of a model of a periodic cell, as in the row. */
 double gb_normal_law_force(const struct gb_model *model, double h);

@@ -3,21 +3,9 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #include "greenbody/params.h"
 #include "greenbody/status.h"
-
-/* What makes the random numbers of a scene. */
-struct gb_seed {
-    int generator; /* enum gb_generator */
-    uint64_t value;
-};
-
-static inline struct gb_seed gb_seed_of(const struct gb_params *params)
-{
-    return (struct gb_seed){params->generator, params->seed};
-}
 
 /* Does anything in the scene depend on the seed?  It does in dies and in grown structures.
  * Lattices and packings from a file are the same cell for every seed. */

@@ -30,7 +30,7 @@ static inline void packing_init(struct packing *packing, int dimension, int64_t 
                                      .count = count,
                                      .r_eq = 1.0 - h_eq,
                                      .r_meso = 2.0,
-                                     .seed = {.value = seed}};
+                                     .seed = seed};
     const double solid = (dimension == 3 ? G_PI / 6.0 : G_PI / 4.0) * (double)count;
     grow->edges[0] = dimension == 3 ? base : sqrt(solid / density);
     grow->edges[1] = dimension == 3 ? base : 1.0;

@@ -106,8 +106,6 @@ def _quasistatic(rng, keys):
     _contact(rng, keys)
     if keys['particles.distribution'] == 'mono':
         _grains(rng, keys)
-    if rng.random() < 0.1:
-        keys['structure.generator'] = 'mt19937'
     if rng.random() < 0.2:
         keys['numerics.relaxer'] = rng.choice(['predict', 'fire', 'steepest'])
     if rng.random() < 0.2:

@@ -15,7 +15,7 @@ static struct gb_chain_growth growth(int dimension, double edge, int64_t count,
                                     .edges = {edge, dimension == 2 ? 1.0 : edge, edge},
                                     .r_eq = 0.99,
                                     .r_meso = 2.0,
-                                    .seed = {.value = seed}};
+                                    .seed = seed};
 }
 
 /* Whether a structure of `count` particles, grown for itself, spans every axis. */

@@ -177,8 +177,8 @@ static void check(const struct gb_chain_growth *grow)
     int rays = 0, choices = 0;
     staying.single_contact = 1.0;
     gb_cell_init(&cell, grow->dimension, grow->edges);
-    g_assert_true(gb_random_open(&growth.rng, &grow->seed, GB_RANDOM_POSITIONS, &err) &&
-                  gb_random_open(&rng, &grow->seed, GB_RANDOM_POSITIONS, &err) &&
+    g_assert_true(gb_random_open(&growth.rng, grow->seed, GB_RANDOM_POSITIONS, &err) &&
+                  gb_random_open(&rng, grow->seed, GB_RANDOM_POSITIONS, &err) &&
                   gb_grid_create(&growth.grid, &cell, grow->r_eq, grow->count, &err));
     growth.candidates =
         gb_alloc_array((size_t)growth.room, sizeof *growth.candidates, &err);
@@ -228,7 +228,7 @@ static void test_sizes(void)
     struct gb_chain_growth grow = gb_chain_growth_from_model(&model);
     for (size_t m = 0; m < G_N_ELEMENTS(r_meso); m++) {
         grow.r_meso = r_meso[m];
-        grow.seed.value = m + 1;
+        grow.seed = m + 1;
         check(&grow);
     }
 }

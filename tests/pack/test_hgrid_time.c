@@ -28,7 +28,7 @@ static void p3_sizes(int64_t count, double *diameter)
     if (!gb_params_assign(&params, "particles.table=" GB_TEST_PRESETS "/nial-sizes.csv",
                           &err) ||
         !gb_sizes_init(&sizes, &params, &err) ||
-        !gb_assign_sizes(&sizes, count, &(struct gb_seed){.value = 1}, diameter, &err)) {
+        !gb_assign_sizes(&sizes, count, 1, diameter, &err)) {
         g_error("%s", err.text);
     }
     for (int64_t i = 0; i < count; i++) {

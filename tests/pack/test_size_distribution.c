@@ -41,8 +41,7 @@ static double *draw(const struct gb_sizes *sizes, int64_t count, uint64_t seed)
 {
     double *d = g_new(double, (gsize)count);
     struct gb_error err = {0};
-    const struct gb_seed key = {.value = seed};
-    g_assert_true(gb_assign_sizes(sizes, count, &key, d, &err));
+    g_assert_true(gb_assign_sizes(sizes, count, seed, d, &err));
     return d;
 }
 
@@ -249,9 +248,8 @@ static void test_errors(void)
     g_assert_false(gb_sizes_init(&sizes, &params, &err));
     double d[4];
     const struct gb_sizes law = freeze(p1);
-    const struct gb_seed seed = {.value = 1};
     gb_alloc_fail_after(1);
-    g_assert_false(gb_assign_sizes(&law, 4, &seed, d, &err));
+    g_assert_false(gb_assign_sizes(&law, 4, 1, d, &err));
     gb_alloc_fail_after(0);
     g_assert_cmpint(err.code, ==, GB_ERR_MEMORY);
 }

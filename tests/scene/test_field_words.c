@@ -71,11 +71,11 @@ static void test_search(void)
 /* Every word belongs to a parameter, which it finds, and every key is found by itself. */
 static void test_words(void)
 {
-    size_t count = 0, with_words = 0;
+    size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        char **words = g_strsplit(gb_field_words(&fields[i]), ",", -1);
-        with_words += words[0] != NULL;
+        char **words =
+            g_strsplit(fields[i].words != NULL ? fields[i].words : "", ",", -1);
         for (size_t k = 0; words[k] != NULL; k++) {
             g_test_message("%s: %s", fields[i].key, words[k]);
             g_assert_cmpint(gb_field_words_rank(&fields[i], g_strstrip(words[k])), >, 10);
@@ -87,7 +87,6 @@ static void test_words(void)
         g_free(found);
         g_free(full);
     }
-    g_assert_cmpuint(with_words, ==, gb_field_words_count());
 }
 
 static void test_meant(void)
@@ -132,9 +131,10 @@ static void test_commas(void)
             "loading.until = 1,5 GPa: decimals have a point, thousands no mark: 1.5 GPa");
     refuses("bridge_length=0,008 d", "contact.bridge_length = 0,008 d: decimals have a "
                                      "point, thousands no mark: 0.008 d");
-    refuses("unload_from=0,1 GPa",
-            "loading.unload_from = 0,1 GPa: decimals have a point, thousands no mark: 0.1 "
-            "GPa");
+    refuses(
+        "unload_from=0,1 GPa",
+        "loading.unload_from = 0,1 GPa: decimals have a point, thousands no mark: 0.1 "
+        "GPa");
 }
 
 int main(int argc, char **argv)

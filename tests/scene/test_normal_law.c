@@ -15,24 +15,6 @@ static void test_names(void)
     g_assert_null(normal->choices[GB_NORMAL_LAWS]);
 }
 
-/* Fields of a row exist, and belong to the laws that list them. */
-static void test_fields(void)
-{
-    for (int law = 0; law < GB_NORMAL_LAWS; law++) {
-        const struct gb_normal_law *row = gb_normal_law_at(law);
-        for (int i = 0; row->fields[i] != NULL; i++) {
-            char **part = g_strsplit(row->fields[i], ".", 2);
-            const struct gb_field *field = gb_params_find(part[0], part[1]);
-            g_assert_nonnull(field);
-            g_assert_true(gb_normal_law_uses(row, field));
-            g_strfreev(part);
-        }
-        g_assert_true(gb_normal_law_uses(row, gb_params_find("material", "young")));
-        g_assert_true(gb_normal_law_uses(row, gb_params_find("contact", "alpha")) ==
-                      (law == GB_NORMAL_ROD));
-    }
-}
-
 /* A kind of scenes with a periodic cell accepts only laws that have a force. */
 static bool accepted(int law)
 {
@@ -94,7 +76,6 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/normal-law/names", test_names);
-    g_test_add_func("/normal-law/fields", test_fields);
     g_test_add_func("/normal-law/slopes", test_slopes);
     return g_test_run();
 }

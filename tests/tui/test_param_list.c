@@ -1,6 +1,6 @@
 #include <glib.h>
 
-#include "scene/field/applies.h"
+#include "scene/field/field.h"
 #include "tui/panel/panels.h"
 
 static struct gb_params scene(const char *first, ...)

@@ -103,7 +103,7 @@ static bool pack_percolation(const struct gb_params *params, int cells,
         scene.seed = params->seed + (uint64_t)k;
         good = find(&scene, &model, &count[k], err);
         if (good) {
-            gb_listing_whole(listing, model.seed.value);
+            gb_listing_whole(listing, model.seed);
             gb_listing_number(listing, count[k]);
             gb_listing_number(listing, density_of(&model, count[k]));
         }

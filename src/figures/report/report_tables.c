@@ -21,8 +21,7 @@
 #include "measure/fit/compaction/compaction_fits.h"
 #include "run/moduli/moduli_states.h"
 #include "scene/derived.h"
-#include "scene/field/applies.h"
-#include "scene/field/field_symbol.h"
+#include "scene/field/field.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
 
@@ -991,7 +990,7 @@ static GPtrArray *values_of(const struct gb_runset *set, const struct gb_field *
     char *buffer = g_malloc(GB_PARAMS_VALUE_MAX);
     for (size_t g = 0; g < set->groups; g++) {
         const struct gb_params *params = &gb_runset_first(set, g)->params;
-        if (!gb_applies_field(params, field)) {
+        if (!gb_field_applies(field, params)) {
             continue;
         }
         gb_params_format(params, field, buffer, GB_PARAMS_VALUE_MAX);
@@ -1050,7 +1049,7 @@ static void put_key(struct gb_report *report, struct gb_report_table *table,
 {
     GPtrArray *values = values_of(report->set, field);
     if (values->len > 0) {
-        const char *symbol = gb_field_symbol(field);
+        const char *symbol = field->symbol;
         gb_report_tables_put(table, "%s.%s", field->group, field->key);
         gb_report_tables_put(table, "%s", symbol != NULL ? symbol : "");
         put_values(table, field, values);

@@ -14,10 +14,8 @@
 #include "io/state/state_optional.h"
 #include "io/state/state_source.h"
 
-/* Raised when a reader of the old layout would misunderstand the new one.  1: without
- * checkpoints; 2: without dies; 3: without tilts and tensors; 4: without walls.
- * The packing is as in 5. */
-static const int32_t layout_number = 5, layout_oldest = 1;
+/* Raised when a reader of another layout would misunderstand this one; no other is read. */
+static const int32_t layout_number = 6;
 
 /* Beyond this a file is nonsense rather than large. */
 static const int64_t count_max = 200000000;
@@ -51,9 +49,6 @@ static const struct array_row arrays[] = {
      "E d^2"},
 };
 
-/* First layout with a kind of rows. */
-static const int32_t row_layout[ROW_KINDS] = {[WALL] = 5};
-
 /* A number of the file's root group: unit in the name, as in curve.csv and the struct.
  * Numbers of the point are rows of io/point_columns.h. */
 struct number_row {
@@ -61,19 +56,16 @@ struct number_row {
     enum gb_hdf_type type;
     int count;
     size_t offset;
-    int32_t layout; /* the first with this number; 0: all */
 };
 
 static const struct number_row numbers[] = {
-    {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell), 0},
-    {"cell_tilt_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, tilt), 4},
-    {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius), 3},
-    {"die_top_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_top), 5},
-    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length),
-     0},
-    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress),
-     0},
-    {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed), 0},
+    {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell)},
+    {"cell_tilt_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, tilt)},
+    {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius)},
+    {"die_top_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_top)},
+    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length)},
+    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress)},
+    {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed)},
 };
 
 enum {
@@ -205,13 +197,10 @@ void gb_state_destroy(struct gb_state *state)
 
 /* SHA-256 of all arrays in the order of the table.  HDF5 checks its headers but not plain
  * data. */
-static void digest(const struct gb_state *state, int32_t layout, char text[DIGEST_SIZE])
+static void digest(const struct gb_state *state, char text[DIGEST_SIZE])
 {
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int k = 0; k < ARRAY_COUNT; k++) {
-        if (layout < row_layout[arrays[k].row_of]) {
-            continue;
-        }
         const struct gb_state_array array = array_of(state, &arrays[k]);
         gb_state_array_sum(&array, sum);
     }
@@ -230,7 +219,7 @@ static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
     const int32_t dimension = state->dimension;
     const int32_t branch = state->point.branch;
     char sum[DIGEST_SIZE];
-    digest(state, layout_number, sum);
+    digest(state, sum);
     if (!gb_hdf_attributes_put_numbers(file, "layout", GB_HDF_INT32, 1, &layout_number,
                                        err) ||
         !gb_hdf_attributes_put_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension,
@@ -278,24 +267,22 @@ bool gb_state_write(const struct gb_state *state, const struct gb_record *record
     return done;
 }
 
-static bool read_layout(struct gb_hdf *file, const char *path, int32_t *number,
-                        struct gb_error *err)
+static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *err)
 {
     int32_t layout = 0;
     if (!gb_hdf_attributes_get_numbers(file, "layout", GB_HDF_INT32, 1, &layout, err)) {
         return false;
     }
-    *number = layout;
-    if (layout < layout_oldest || layout > layout_number) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "%s: layout: %d is not known to this version, which reads %d to %d", path,
-            layout, layout_oldest, layout_number);
+    if (layout != layout_number) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: layout = %d: written by another version of greenbody, "
+                            "expected %d",
+                            path, layout, layout_number);
     }
     return true;
 }
 
-static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t layout,
+static bool read_numbers(struct gb_state *state, struct gb_hdf *file,
                          struct gb_error *err)
 {
     int32_t dimension = 0;
@@ -313,15 +300,14 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t la
     state->point.branch = branch;
     for (int k = 0; k < NUMBER_COUNT; k++) {
         const struct number_row *row = &numbers[k];
-        if (layout >= row->layout &&
-            !gb_hdf_attributes_get_numbers(file, row->name, row->type, row->count,
+        if (!gb_hdf_attributes_get_numbers(file, row->name, row->type, row->count,
                                            (char *)state + row->offset, err)) {
             return false;
         }
     }
     const struct gb_point_column *row;
     for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
-        if (row->state != NULL && layout >= row->layout &&
+        if (row->state != NULL &&
             !gb_hdf_attributes_get_numbers(file, row->state, type_of(row),
                                            (int)row->count,
                                            (char *)&state->point + row->offset, err)) {
@@ -331,15 +317,15 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t la
     return true;
 }
 
-static bool check_digest(const struct gb_state *state, int32_t layout,
-                         struct gb_hdf *file, const char *path, struct gb_error *err)
+static bool check_digest(const struct gb_state *state, struct gb_hdf *file,
+                         const char *path, struct gb_error *err)
 {
     char kept[DIGEST_SIZE];
     char sum[DIGEST_SIZE];
     if (!gb_hdf_attributes_get_text(file, "sha256", kept, sizeof kept, err)) {
         return false;
     }
-    digest(state, layout, sum);
+    digest(state, sum);
     return strcmp(kept, sum) == 0 ||
            gb_error_set(err, GB_ERR_INPUT, "%s: sha256: does not fit the data: damaged",
                         path);
@@ -360,16 +346,13 @@ static bool check(const struct gb_state *state, const char *path, struct gb_erro
 }
 
 /* Sizes before memory: every dataset must agree with the first of its kind. */
-static bool read_sizes(struct gb_hdf *file, const char *path, int32_t layout,
-                       int64_t size[ROW_KINDS], struct gb_error *err)
+static bool read_sizes(struct gb_hdf *file, const char *path, int64_t size[ROW_KINDS],
+                       struct gb_error *err)
 {
     for (int k = 0; k < ROW_KINDS; k++) {
-        size[k] = layout < row_layout[k] ? 0 : -1;
+        size[k] = -1;
     }
     for (int k = 0; k < ARRAY_COUNT; k++) {
-        if (layout < row_layout[arrays[k].row_of]) {
-            continue;
-        }
         const struct gb_hdf_array shape = {
             .name = arrays[k].name, .type = arrays[k].type, .columns = arrays[k].columns};
         int64_t *known = &size[arrays[k].row_of];
@@ -397,21 +380,15 @@ bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err
     if (!gb_hdf_open(&file, path, err)) {
         return false;
     }
-    int32_t layout = 0;
-    bool done = read_layout(file, path, &layout, err) &&
-                read_sizes(file, path, layout, size, err) &&
+    bool done = read_layout(file, path, err) && read_sizes(file, path, size, err) &&
                 gb_state_create(&state, size[PARTICLE], size[PAIR], err) &&
                 gb_state_allocate_walls(state, size[WALL], err) &&
-                read_numbers(state, file, layout, err);
+                read_numbers(state, file, err);
     for (int k = 0; k < ARRAY_COUNT && done; k++) {
-        if (layout < row_layout[arrays[k].row_of]) {
-            continue;
-        }
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_get_array(file, &shape, *array_member(state, &arrays[k]), err);
     }
-    done = done && check(state, path, err) &&
-           check_digest(state, layout, file, path, err) &&
+    done = done && check(state, path, err) && check_digest(state, file, path, err) &&
            gb_state_optional_read(state, file, path, err);
     gb_hdf_destroy(file);
     if (!done) {

@@ -48,9 +48,9 @@ struct gb_state {
     uint64_t seed;
     char version[32];
     /* Attraction across gaps (io/state/state_gaps.h): strength and shift of P1 (3), E d^2
-     * and d, and how far it reaches, d; 0: none, or a state of an earlier version. */
+     * and d, and how far it reaches, d; 0: none. */
     double attraction_strength, attraction_shift, attraction_cutoff;
-    /* What pictures show beside the packing; states of earlier versions lack it. */
+    /* What pictures show besides the packing. */
     double pressed[3];    /* 1: an axis along which the scene is pressed */
     double punch_height;  /* of the face of the upper punch of a die, d; NaN: none */
     double funnel_height; /* of the funnel's outlet over the floor, d; 0: no funnel */

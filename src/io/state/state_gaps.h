@@ -12,8 +12,7 @@ struct gb_state_gaps {
     double *force; /* count x 3: on the first, E d^2 */
 };
 
-/* None without attraction, in a die, and of files that earlier versions wrote, which do not
- * have its constants.  Errors: GB_ERR_MEMORY, GB_ERR_GUARD for a cell narrower than two
+/* None without attraction and in a die.  Errors: GB_ERR_MEMORY, GB_ERR_GUARD for a cell narrower than two
  * reaches. */
 bool gb_state_gaps_init(struct gb_state_gaps *gaps, const struct gb_state *state,
                         struct gb_error *err);

@@ -21,20 +21,19 @@ struct optional_row {
     size_t member;
     const char *cell, *bed; /* items: of a periodic cell, of a die; NULL: none */
     int power; /* of what turns their arcs into angles: diameter of a cell's, radius of a die's */
-    const char *angles; /* item of a die of earlier versions, which had no arcs */
 };
 
 static const struct optional_row rows[] = {
     {"/velocity", "d/T", 3, false, offsetof(struct gb_state, velocity), "motion/velocity",
-     "bed/speed", 0, NULL},
+     "bed/speed", 0},
     {"/spin", "1/T", 3, false, offsetof(struct gb_state, spin), "motion/spin", "bed/roll",
-     -1, "bed/spin"},
+     -1},
     {"/force", "E d^2", 3, false, offsetof(struct gb_state, force), "world/force",
-     "bed/force", 0, NULL},
+     "bed/force", 0},
     {"/torque", "E d^3", 3, false, offsetof(struct gb_state, torque), "world/torque",
-     "bed/moment", 1, "bed/torque"},
+     "bed/moment", 1},
     {"/contact_radius", "d", 1, true, offsetof(struct gb_state, contact_radius), NULL,
-     NULL, 0, NULL},
+     NULL, 0},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -147,22 +146,6 @@ static int item_columns(const struct gb_state *state, const struct optional_row 
     return state->die_radius > 0.0 ? BED_COLUMNS : row->columns;
 }
 
-/* The row as records of earlier versions have it. */
-static struct optional_row earlier(const struct optional_row *row)
-{
-    struct optional_row before = *row;
-    before.bed = row->angles;
-    before.power = 0;
-    return before;
-}
-
-/* The row that the record has, now or in earlier versions. */
-static struct optional_row fitting(const struct optional_row *row,
-                                   const struct gb_record *record)
-{
-    return row->angles && gb_record_find(record, row->angles) ? earlier(row) : *row;
-}
-
 /* The item of an array that the record has; NULL without one. */
 static const struct gb_record_item *find_item(const struct gb_state *state,
                                               const struct optional_row *row,
@@ -176,10 +159,10 @@ bool gb_state_optional_check(const struct gb_state *state, const struct gb_recor
                              struct gb_error *err)
 {
     for (int k = 0; k < ROWS; k++) {
-        const struct optional_row row = fitting(&rows[k], record);
-        const struct gb_record_item *item = find_item(state, &row, record);
+        const struct optional_row *row = &rows[k];
+        const struct gb_record_item *item = find_item(state, row, record);
         if (item && (item->type != GB_RECORD_DOUBLE || item->rows != state->count ||
-                     item->columns != item_columns(state, &rows[k]))) {
+                     item->columns != item_columns(state, row))) {
             return gb_error_set(err, GB_ERR_INPUT, "%s: is of another shape", item->name);
         }
     }
@@ -193,13 +176,13 @@ bool gb_state_optional_take(struct gb_state *state, const struct gb_record *reco
         return false;
     }
     for (int k = 0; k < ROWS; k++) {
-        const struct optional_row row = fitting(&rows[k], record);
-        const struct gb_record_item *item = find_item(state, &row, record);
-        if (item && !allocate(state, &row, err)) {
+        const struct optional_row *row = &rows[k];
+        const struct gb_record_item *item = find_item(state, row, record);
+        if (item && !allocate(state, row, err)) {
             return false;
         }
         if (item) {
-            fill_rows(state, &row, item, 0, state->count, *member_of(state, &row));
+            fill_rows(state, row, item, 0, state->count, *member_of(state, row));
         }
     }
     return true;
@@ -274,34 +257,7 @@ static bool check(const struct gb_state *state, const char *path, struct gb_erro
     return true;
 }
 
-/* An array that only the checkpoint of the file has, if that. */
-static bool read_item(struct gb_state *state, const struct optional_row *row,
-                      struct gb_hdf *file, struct gb_error *err)
-{
-    const char *item = item_of(state, row);
-    char name[GB_HDF_LIST_NAME];
-    g_snprintf(name, sizeof name, "/checkpoint/%s", item != NULL ? item : "");
-    if (item == NULL || !gb_hdf_list_has(file, name)) {
-        return true;
-    }
-    const int columns = item_columns(state, row);
-    const struct gb_hdf_array shape = {name, GB_HDF_DOUBLE, state->count, columns, ""};
-    double *data =
-        gb_alloc_array((size_t)state->count * (size_t)columns, sizeof *data, err);
-    const bool done = data != NULL && gb_hdf_get_array(file, &shape, data, err) &&
-                      allocate(state, row, err);
-    if (done) {
-        const struct gb_record_item read = {.type = GB_RECORD_DOUBLE,
-                                            .rows = state->count,
-                                            .columns = columns,
-                                            .data = data};
-        fill_rows(state, row, &read, 0, state->count, *member_of(state, row));
-    }
-    gb_alloc_free(data);
-    return done;
-}
-
-/* What is missing or out of range stays as gb_state_create has it. */
+/* What is out of range stays as gb_state_create has it. */
 static void read_numbers(struct gb_state *state, struct gb_hdf *file)
 {
     for (int k = 0; k < NUMBERS; k++) {
@@ -337,12 +293,6 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
     if (done && (some || summed) && (!summed || strcmp(kept, sum) != 0)) {
         done = gb_error_set(err, GB_ERR_INPUT, "%s: %s: does not fit the data: damaged",
                             path, sum_name);
-    }
-    for (int k = 0; k < ROWS && done && !some; k++) {
-        const struct optional_row before = earlier(&rows[k]);
-        done = read_item(state, &rows[k], file, err) &&
-               (rows[k].angles == NULL || data_of(state, &rows[k]) != NULL ||
-                read_item(state, &before, file, err));
     }
     double second = 0.0;
     const bool timed =

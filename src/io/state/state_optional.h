@@ -6,8 +6,7 @@
 #include "io/state/state.h"
 
 /* The arrays that a state may lack: velocities exist in scenes with time, resultants and
- * contact radii in states of a run.  Beside them the numbers of pictures. Files of earlier versions have them, but for the
- * radii, in their checkpoint alone. */
+ * contact radii in states of a run.  With them the numbers of pictures. */
 
 /* Memory for an array of the state, zeroed: &state->velocity, ... */
 bool gb_state_optional_allocate(struct gb_state *state, double **member,
@@ -28,11 +27,10 @@ bool gb_state_optional_has(const struct gb_record *record, size_t member);
 void gb_state_optional_fill(const struct gb_state *state, const struct gb_record *record,
                             size_t member, int64_t begin, int64_t end, double *to);
 
-/* Datasets of the state's file with a checksum of their own, which earlier versions do not
- * read. */
+/* Datasets of the state's file with a checksum of their own. */
 bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
                              struct gb_error *err);
-/* The same, or from the checkpoint of the file; radii and sizes of the state must be set.
+/* Reads them; radii and sizes of the state must be set.
  * Errors: GB_ERR_MEMORY, GB_ERR_INPUT naming path and dataset. */
 bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const char *path,
                             struct gb_error *err);

@@ -75,7 +75,7 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     state->pascal_per_stress = model->pascal_per_stress;
     state->second_per_time = second_per_time(model);
     gb_state_record_model(state, model);
-    state->seed = model->seed.value;
+    state->seed = model->seed;
     snprintf(state->preset, sizeof state->preset, "%s", params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }
@@ -131,21 +131,17 @@ static void copy_spheres(struct gb_state *state, const double (*position)[4],
     }
 }
 
-/* The die of the record, without a funnel, as points come after it; bores of earlier versions
- * are endless. */
+/* The die of the record, without a funnel, as points come after it. */
 static bool take_die(const struct gb_record *record, const struct gb_model *model,
                      struct gb_die *die, struct gb_error *err)
 {
     *die = (struct gb_die){.radius = model->die.radius, .punch = true};
     int32_t bore = GB_DIE_BORE_ENDLESS;
     if (!take(record, "bed/punch_place", GB_RECORD_DOUBLE, 1, 1, &die->punch_position,
-              err)) {
-        return false;
-    }
-    if (gb_record_find(record, "bed/bore") &&
-        (!take(record, "bed/bore", GB_RECORD_INT32, 1, 1, &bore, err) ||
-         !take(record, "bed/top", GB_RECORD_DOUBLE, 1, 1, &die->top, err) ||
-         !take(record, "bed/punch", GB_RECORD_BOOL, 1, 1, &die->punch, err))) {
+              err) ||
+        !take(record, "bed/bore", GB_RECORD_INT32, 1, 1, &bore, err) ||
+        !take(record, "bed/top", GB_RECORD_DOUBLE, 1, 1, &die->top, err) ||
+        !take(record, "bed/punch", GB_RECORD_BOOL, 1, 1, &die->punch, err)) {
         return false;
     }
     die->bore = (enum gb_die_bore)bore;

@@ -175,20 +175,22 @@ bool gb_contact_history_write(struct gb_contact_history *history,
     return true;
 }
 
+static const char pair_name[] = GB_CONTACT_HISTORY_PAIR, value_name[] = "world/history";
+
 /* Items of a record as the memory of a history; false without memory. */
 static bool add_items(struct gb_contact_history *history, struct gb_record *record,
-                      const struct gb_contact_history_names *names, struct gb_error *err)
+                      struct gb_error *err)
 {
     const int64_t rows = history->begin[history->parts];
     struct gb_record_item *pair =
-        gb_record_add(record, names->pair, GB_RECORD_INT32, rows, 2, "1", err);
+        gb_record_add(record, pair_name, GB_RECORD_INT32, rows, 2, "1", err);
     if (!pair) {
         return false;
     }
     struct gb_record_item *value =
         history->real == GB_REAL_F32
-            ? gb_record_add_f32(record, names->value, rows, history->planes, "d", err)
-            : gb_record_add(record, names->value, GB_RECORD_DOUBLE, rows, history->planes,
+            ? gb_record_add_f32(record, value_name, rows, history->planes, "d", err)
+            : gb_record_add(record, value_name, GB_RECORD_DOUBLE, rows, history->planes,
                             "d", err);
     history->pair = pair->data;
     history->value = value ? value->data : NULL;
@@ -196,14 +198,12 @@ static bool add_items(struct gb_contact_history *history, struct gb_record *reco
 }
 
 bool gb_contact_history_save(const struct gb_engine *engine, struct gb_record *record,
-                             const struct gb_contact_history_names *names,
                              struct gb_error *err)
 {
     struct gb_contact_history history = {.planes = engine->contacts.kept,
                                          .real = engine->state.real};
     struct transfer transfer = {&history, engine, 0};
-    const bool done =
-        count_parts(&transfer, err) && add_items(&history, record, names, err);
+    const bool done = count_parts(&transfer, err) && add_items(&history, record, err);
     if (done) {
         gb_team_run(engine->team, history.parts, write_item, &transfer);
     }
@@ -300,30 +300,24 @@ void gb_contact_history_read(const struct gb_contact_history *history,
                        &reading);
 }
 
-const struct gb_contact_history_names gb_contact_history_world = {"world/pair",
-                                                                  "world/history"};
-const struct gb_contact_history_names gb_contact_history_branch = {"branch/pair",
-                                                                   "branch/history"};
-
 bool gb_contact_history_record(struct gb_contact_history *history,
                                const struct gb_engine *engine, struct gb_record *record,
-                               const struct gb_contact_history_names *names,
                                struct gb_error *err)
 {
     const int planes = engine->contacts.kept;
     const enum gb_real real = engine->state.real;
     int64_t rows = history->count;
     if (record->loading &&
-        (!gb_record_rows(record, names->pair, GB_RECORD_INT32, 2, &rows, err) ||
+        (!gb_record_rows(record, pair_name, GB_RECORD_INT32, 2, &rows, err) ||
          !reserve(history, rows, planes, real, err))) {
         return false;
     }
     history->count = rows;
-    return gb_record_array(record, names->pair, GB_RECORD_INT32, rows, 2, "1",
+    return gb_record_array(record, pair_name, GB_RECORD_INT32, rows, 2, "1",
                            history->pair, err) &&
            (real == GB_REAL_F32
-                ? gb_record_f32(record, names->value, rows, planes, "d", history->value,
+                ? gb_record_f32(record, value_name, rows, planes, "d", history->value,
                                 err)
-                : gb_record_array(record, names->value, GB_RECORD_DOUBLE, rows, planes,
-                                  "d", history->value, err));
+                : gb_record_array(record, value_name, GB_RECORD_DOUBLE, rows, planes, "d",
+                                  history->value, err));
 }

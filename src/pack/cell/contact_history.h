@@ -36,25 +36,18 @@ void gb_contact_history_apply(const struct gb_contact_history *history, int64_t 
 void gb_contact_history_read(const struct gb_contact_history *history,
                              struct gb_engine *engine);
 
-/* Items of a checkpoint that hold a history: that of the world, and that of the start of a
- * branch in checkpoints of version 0.1. */
-struct gb_contact_history_names {
-    const char *pair, *value;
-};
-extern const struct gb_contact_history_names gb_contact_history_world,
-    gb_contact_history_branch;
+/* Item of a checkpoint with the pairs of the history. */
+#define GB_CONTACT_HISTORY_PAIR "world/pair"
 
 /* Saves the kept values of every contact of the engine, in the order of its list, without
  * another copy of them. */
 bool gb_contact_history_save(const struct gb_engine *engine, struct gb_record *record,
-                             const struct gb_contact_history_names *names,
                              struct gb_error *err);
 
 /* Saves the kept values of a history, or loads them; contacts are not changed.
  * Errors: GB_ERR_INPUT naming the item, GB_ERR_MEMORY. */
 bool gb_contact_history_record(struct gb_contact_history *history,
                                const struct gb_engine *engine, struct gb_record *record,
-                               const struct gb_contact_history_names *names,
                                struct gb_error *err);
 
 #endif

@@ -498,8 +498,9 @@ void gb_world_normal_pressures(const struct gb_world *world, double pressure[3])
 
 /* ---- Copies ---- */
 
-bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **copy,
-                          struct gb_error *err)
+/* A copy to be filled; made when *copy is NULL. */
+static bool ensure_copy(const struct gb_world *world, struct gb_world_copy **copy,
+                        struct gb_error *err)
 {
     if (*copy) {
         return true;
@@ -523,7 +524,7 @@ bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **cop
 {
     const struct gb_engine *engine = &world->engine;
     const struct gb_particles *particles = &engine->particles;
-    if (!gb_world_copy_ensure(world, copy, err)) {
+    if (!ensure_copy(world, copy, err)) {
         return false;
     }
     (*copy)->cell = particles->cell;
@@ -548,34 +549,4 @@ void gb_world_copy_destroy(struct gb_world_copy *copy)
         gb_contact_history_finish(&copy->history);
         gb_alloc_free(copy);
     }
-}
-
-bool gb_world_copy_record(const struct gb_world *world, struct gb_world_copy **copy,
-                          struct gb_record *record, struct gb_error *err)
-{
-    const struct gb_particles *particles = &world->engine.particles;
-    if (!gb_world_copy_ensure(world, copy, err)) {
-        return false;
-    }
-    struct gb_world_copy *at = *copy;
-    if (record->loading) {
-        at->cell = particles->cell;
-        at->count = particles->count;
-    }
-    return gb_record_array(record, "branch/edge", GB_RECORD_DOUBLE, 1, 3, "d",
-                           at->cell.edge, err) &&
-           (!world->engine.model->sheared ||
-            (gb_record_array(record, "branch/tilt", GB_RECORD_DOUBLE, 1, 3, "d",
-                             at->cell.tilt, err) &&
-             gb_record_array(record, "branch/shear", GB_RECORD_DOUBLE, 1, 3, "1",
-                             at->cell.shear, err))) &&
-           gb_record_checks_edges(&at->cell, "branch/edge", err) &&
-           gb_record_array(record, "branch/position", GB_RECORD_DOUBLE, at->count, 3, "d",
-                           at->position, err) &&
-           gb_record_checks_inside(&at->cell, at->position, at->count, 1.0,
-                                   "branch/position", err) &&
-           gb_contact_history_record(&at->history, &world->engine, record,
-                                     &gb_contact_history_branch, err) &&
-           gb_record_checks_history(&at->history, at->count,
-                                    gb_contact_history_branch.pair, err);
 }

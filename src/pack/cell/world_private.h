@@ -36,8 +36,4 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
                                const struct gb_contact_history *history,
                                struct gb_error *err);
 
-/* A copy to be filled; made when *copy is NULL. */
-bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **copy,
-                          struct gb_error *err);
-
 #endif

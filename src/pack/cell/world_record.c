@@ -166,10 +166,9 @@ static void apply_history(const struct gb_contact_history *history,
 static bool load_history(struct gb_engine *engine, struct gb_contact_history *history,
                          struct gb_record *record, struct gb_error *err)
 {
-    if (!gb_contact_history_record(history, engine, record, &gb_contact_history_world,
-                                   err) ||
+    if (!gb_contact_history_record(history, engine, record, err) ||
         !gb_record_checks_history(history, engine->particles.count,
-                                  gb_contact_history_world.pair, err)) {
+                                  GB_CONTACT_HISTORY_PAIR, err)) {
         return false;
     }
     if (!fits(history, engine)) {
@@ -191,7 +190,7 @@ static bool load_contacts(struct gb_world *world, struct gb_record *record,
 /* Contacts of a record that has their pairs. */
 static int64_t count_contacts(const struct gb_record *record)
 {
-    return gb_record_find(record, gb_contact_history_world.pair)->rows;
+    return gb_record_find(record, GB_CONTACT_HISTORY_PAIR)->rows;
 }
 
 /* Force on the first particle of every contact.  In single precision for pictures only;
@@ -338,7 +337,7 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
            record_cell(world, record, err) &&
            record_vectors(world, record, "world/position", "d", particles->position,
                           err) &&
-           gb_contact_history_save(engine, record, &gb_contact_history_world, err) &&
+           gb_contact_history_save(engine, record, err) &&
            save_forces(world, record, err) &&
            save_vectors(world, record, "world/force", "E d^2", particles->force, err) &&
            save_vectors(world, record, "world/torque", "E d^3", particles->torque, err) &&

@@ -15,9 +15,4 @@
 bool gb_world_record(struct gb_world *world, struct gb_record *record,
                      struct gb_error *err);
 
-/* The same of a copy of this world, as version 0.1 kept the start of a branch; made when
- * *copy is NULL. */
-bool gb_world_copy_record(const struct gb_world *world, struct gb_world_copy **copy,
-                          struct gb_record *record, struct gb_error *err);
-
 #endif

@@ -153,54 +153,29 @@ static const struct gb_record_member members[] = {
     {"bed/punch_force", GB_RECORD_DOUBLE, 1, AT(tally.punch), "E d^2"},
     {"bed/side_moment", GB_RECORD_DOUBLE, 2, AT(tally.side), "E d^3"},
     {"bed/evaluations", GB_RECORD_INT64, 1, AT(evaluations), "1"},
-};
-
-/* Of an ejection; records of earlier versions have none of them. */
-static const struct gb_record_member ejection_members[] = {
     {"bed/bore", GB_RECORD_INT32, 1, AT(die.bore), "1"},
     {"bed/top", GB_RECORD_DOUBLE, 1, AT(die.top), "d"},
     {"bed/side_speed", GB_RECORD_DOUBLE, 1, AT(die.side_velocity), "d/T"},
     {"bed/side_drag", GB_RECORD_DOUBLE, 1, AT(tally.drag), "E d^2"},
-};
-
-/* What the next lists are made with: which pairs they have limits the time step
- * (gb_bed_tally).  Records of earlier versions have none. */
-static const struct gb_record_member skin_members[] = {
+    /* the next lists are made with these; their pairs limit the time step (gb_bed_tally) */
     {"bed/skin", GB_RECORD_DOUBLE, 1, AT(skin), "d"},
     {"bed/near_skin", GB_RECORD_DOUBLE, 1, AT(near_skin), "d"},
 };
 
 #undef AT
 
-static bool record_skins(struct gb_bed *bed, struct gb_record *record,
-                         struct gb_error *err)
+static bool record_members(struct gb_bed *bed, struct gb_record *record,
+                           struct gb_error *err)
 {
-    if (record->loading && !gb_record_find(record, "bed/skin")) {
-        return true;
-    }
-    if (!gb_record_members(record, skin_members,
-                           sizeof skin_members / sizeof skin_members[0], bed, err)) {
-        return false;
-    }
-    return bed->near_skin > 0.0 && bed->skin > bed->near_skin && bed->skin < 1e9
-               ? true
-               : gb_record_checks_out_of_range("bed/skin", err);
-}
-
-static bool record_ejection(struct gb_bed *bed, struct gb_record *record,
-                            struct gb_error *err)
-{
-    if (record->loading && !gb_record_find(record, "bed/bore")) {
-        return true;
-    }
-    if (!gb_record_members(record, ejection_members,
-                           sizeof ejection_members / sizeof ejection_members[0], bed,
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], bed,
                            err)) {
         return false;
     }
-    return (int)bed->die.bore >= 0 && bed->die.bore <= GB_DIE_BORE_GONE
-               ? true
-               : gb_record_checks_out_of_range("bed/bore", err);
+    if (!(bed->near_skin > 0.0 && bed->skin > bed->near_skin && bed->skin < 1e9)) {
+        return gb_record_checks_out_of_range("bed/skin", err);
+    }
+    return ((int)bed->die.bore >= 0 && bed->die.bore <= GB_DIE_BORE_GONE) ||
+           gb_record_checks_out_of_range("bed/bore", err);
 }
 
 static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
@@ -210,26 +185,10 @@ static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
                            err);
 }
 
-/* Records of earlier versions have the angular velocity and the torque themselves. */
-static bool load_angles(struct gb_bed *bed, struct gb_record *record,
-                        struct gb_error *err)
-{
-    const bool done = rows(bed, record, "bed/spin", "1/T", bed->roll, err) &&
-                      rows(bed, record, "bed/torque", "E d^3", bed->moment, err);
-    for (int64_t i = 0; i < bed->count && done; i++) {
-        gb_vec_scale(bed->roll[i], bed->position[i][3]);
-        gb_vec_scale(bed->moment[i], 1.0 / bed->position[i][3]);
-    }
-    return done;
-}
-
 /* After the positions, whose rows have the radii. */
 static bool record_rotation(struct gb_bed *bed, struct gb_record *record,
                             struct gb_error *err)
 {
-    if (record->loading && !gb_record_find(record, "bed/roll")) {
-        return load_angles(bed, record, err);
-    }
     return rows(bed, record, "bed/roll", "d/T", bed->roll, err) &&
            rows(bed, record, "bed/moment", "E d^2", bed->moment, err);
 }
@@ -357,14 +316,12 @@ static bool exchange_contacts(struct gb_bed *bed, enum gb_bed_partner partner,
 
 bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error *err)
 {
-    return gb_record_members(record, members, sizeof members / sizeof members[0], bed,
-                             err) &&
+    return record_members(bed, record, err) &&
            rows(bed, record, "bed/place", "d", bed->position, err) &&
            rows(bed, record, "bed/speed", "d/T", bed->velocity, err) &&
            rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
            record_rotation(bed, record, err) && accept_positions(bed, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_PARTICLE, record, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err) &&
-           record_skins(bed, record, err) && record_ejection(bed, record, err) &&
            gb_bed_welds_record(bed, record, err);
 }

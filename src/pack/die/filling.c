@@ -16,7 +16,6 @@
 #include "pack/structure/assign_sizes.h"
 #include "pack/structure/random.h"
 #include "scene/derived.h"
-#include "scene/seed.h"
 #include "scene/thread_count.h"
 
 /* ---- Insertion ---- */
@@ -163,7 +162,7 @@ static bool insert_all(struct pour *pour, bool (*cancelled)(void *data), void *d
     return true;
 }
 
-bool gb_filling_fill(struct gb_bed *bed, const struct gb_seed *seed, double density,
+bool gb_filling_fill(struct gb_bed *bed, uint64_t seed, double density,
                      bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
     struct pour pour = {.bed = bed};
@@ -220,10 +219,9 @@ struct gb_bed_law gb_filling_compaction_law(const struct gb_params *params)
 static bool draw_radii(const struct gb_params *params, double *radius, double *volume,
                        double *largest, struct gb_error *err)
 {
-    const struct gb_seed seed = gb_seed_of(params);
     struct gb_sizes sizes;
     if (!gb_sizes_init(&sizes, params, err) ||
-        !gb_assign_sizes(&sizes, params->count, &seed, radius, err)) {
+        !gb_assign_sizes(&sizes, params->count, params->seed, radius, err)) {
         return false;
     }
     *volume = *largest = 0.0;
@@ -294,8 +292,8 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
     if (!gb_filling_allocate(&bed, params, model, err)) {
         return false;
     }
-    const struct gb_seed seed = gb_seed_of(params);
-    if (!gb_filling_fill(bed, &seed, model->die.loose_density, cancelled, data, err)) {
+    if (!gb_filling_fill(bed, params->seed, model->die.loose_density, cancelled, data,
+                         err)) {
         gb_bed_destroy(bed);
         return false;
     }

@@ -5,7 +5,6 @@
 
 #include "pack/die/bed.h"
 #include "scene/model.h"
-#include "scene/seed.h"
 
 /* Loose powder in the funnel: the spheres of a bed at random positions without overlap,
  * the large ones inserted first, in the cone above the die from its outlet up to the
@@ -16,7 +15,7 @@
  * cancelled   may be NULL; polled, true fails with GB_ERR_CANCELLED
  * Errors: GB_ERR_INPUT when no free position is found for a sphere, GB_ERR_MEMORY.
  * Source: P3 section 5. */
-bool gb_filling_fill(struct gb_bed *bed, const struct gb_seed *seed, double density,
+bool gb_filling_fill(struct gb_bed *bed, uint64_t seed, double density,
                      bool (*cancelled)(void *data), void *data, struct gb_error *err);
 
 /* The powder of a scene with kind = die, loose in the funnel above its die, with

@@ -5,7 +5,7 @@
 #include "pack/structure/random.h"
 #include "scene/imported/imported.h"
 
-static bool shuffle(int64_t count, const struct gb_seed *seed, double *diameter_m,
+static bool shuffle(int64_t count, uint64_t seed, double *diameter_m,
                     struct gb_error *err)
 {
     gsl_rng random;
@@ -22,8 +22,8 @@ static bool shuffle(int64_t count, const struct gb_seed *seed, double *diameter_
     return true;
 }
 
-bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count,
-                     const struct gb_seed *seed, double *diameter_m, struct gb_error *err)
+bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
+                     double *diameter_m, struct gb_error *err)
 {
     gb_sizes_fill(sizes, count, diameter_m);
     return sizes->distribution == GB_DISTRIBUTION_MONO ||
@@ -39,7 +39,7 @@ bool gb_assign_sizes_model(const struct gb_model *model, double *diameter,
         return true;
     }
     if (model->polydisperse &&
-        !gb_assign_sizes(&model->sizes, model->count, &model->seed, diameter, err)) {
+        !gb_assign_sizes(&model->sizes, model->count, model->seed, diameter, err)) {
         return false;
     }
     for (int64_t i = 0; i < model->count; i++) {

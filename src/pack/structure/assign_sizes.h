@@ -7,9 +7,8 @@
  *
  * diameter_m   count values
  * Errors: GB_ERR_MEMORY.  Same sizes, count and seed: same bits. */
-bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count,
-                     const struct gb_seed *seed, double *diameter_m,
-                     struct gb_error *err);
+bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
+                     double *diameter_m, struct gb_error *err);
 
 /* Those of a model's particles, d: its sizes, or 1. */
 bool gb_assign_sizes_model(const struct gb_model *model, double *diameter,

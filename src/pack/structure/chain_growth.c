@@ -514,7 +514,7 @@ bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
     if (!check(grow, &cell, err)) {
         return false;
     }
-    if (!gb_random_open(&growth.rng, &grow->seed, GB_RANDOM_POSITIONS, err)) {
+    if (!gb_random_open(&growth.rng, grow->seed, GB_RANDOM_POSITIONS, err)) {
         return false;
     }
     if (!assign_diameters(&growth, err)) {

@@ -21,7 +21,7 @@ struct gb_chain_growth {
     /* Share of the particles that stay where the ray meets one other, instead of going on
      * to the closest position that touches two; P1: 0. */
     double single_contact;
-    struct gb_seed seed;
+    uint64_t seed;
     const struct gb_model *model;  /* of unequal sizes; else NULL */
     bool (*cancelled)(void *data); /* polled; NULL is fine */
     void *data;

@@ -70,28 +70,15 @@ static const gsl_rng_type philox_type = {
     .get_double = next_uniform,
 };
 
-/* Sets the sizes of version 0.1 apart from the positions of the same seed. */
-static uint32_t folded(uint64_t seed, enum gb_random_stream stream)
+bool gb_random_open(gsl_rng *random, uint64_t seed, enum gb_random_stream stream,
+                    struct gb_error *err)
 {
-    const uint64_t mixed =
-        stream == GB_RANDOM_SIZES ? seed ^ 0x73697a6573 /* "sizes" */ : seed;
-    return (uint32_t)(mixed ^ (mixed >> 32));
-}
-
-bool gb_random_open(gsl_rng *random, const struct gb_seed *seed,
-                    enum gb_random_stream stream, struct gb_error *err)
-{
-    const bool is_philox = seed->generator == GB_GENERATOR_PHILOX;
-    random->type = is_philox ? &philox_type : gsl_rng_mt19937;
+    random->type = &philox_type;
     random->state = gb_alloc_array(1, random->type->size, err);
     if (!random->state) {
         return false;
     }
-    if (is_philox) {
-        key_of(random->state, seed->value, stream);
-    } else {
-        gsl_rng_set(random, folded(seed->value, stream));
-    }
+    key_of(random->state, seed, stream);
     return true;
 }
 

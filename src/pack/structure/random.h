@@ -2,10 +2,10 @@
 #define GB_PACK_STRUCTURE_RANDOM_H
 
 #include <gsl/gsl_rng.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "scene/seed.h"
 
 /* Independent sequences of one seed. */
 enum gb_random_stream {
@@ -15,15 +15,13 @@ enum gb_random_stream {
 
 /* Makes a random number generator for a seed and a stream.  Philox takes all 64 bits as
  * its key and the stream as the upper half of its counter, so that no two seeds and no
- * two streams share a sequence; mt19937 folds the seed to 32 bits, as version 0.1 did.
- * Numbers of gsl_rng_uniform have 53 bits with philox and 32 with mt19937.  The state
+ * two streams share a sequence.  Numbers of gsl_rng_uniform have 53 bits.  The state
  * comes from gb_alloc_array: gsl_rng_alloc would abort the program when memory is out.
  *
  * Errors: GB_ERR_MEMORY.
- * Source: Salmon et al., Parallel random numbers: as easy as 1, 2, 3 (SC11), section 5;
- * Matsumoto and Nishimura, ACM TOMACS 8, 3 (1998). */
-bool gb_random_open(gsl_rng *random, const struct gb_seed *seed,
-                    enum gb_random_stream stream, struct gb_error *err);
+ * Source: Salmon et al., Parallel random numbers: as easy as 1, 2, 3 (SC11), section 5. */
+bool gb_random_open(gsl_rng *random, uint64_t seed, enum gb_random_stream stream,
+                    struct gb_error *err);
 void gb_random_close(gsl_rng *random);
 
 /* Unit vectors, uniform over the sphere or the circle.  GSL's functions have other bits

@@ -16,9 +16,8 @@ struct gb_run_journal {
     int64_t preset;    /* digest of the parameters that determine the results */
 };
 
-/* Digest of all parameters but those that change no result ([output], title, threads).  Keys
- * that version 0.1 has not count only with another value than their default: its run
- * directories resume. */
+/* Digest of the parameters that differ from their defaults, but those that change no result
+ * ([output], title, threads).  A key added later changes no digest. */
 int64_t gb_run_journal_digest(const struct gb_params *params);
 
 /* Adds the journal to a record. */

@@ -6,43 +6,53 @@
 
 #include "scene/loading_kind.h"
 
-static const char *const allowed[] = {
-    "contact.alpha",          "contact.mu",
-    "contact.mu_pivot",       "contact.bridge_length",
-    "contact.shear_strength", "loading.geometry",
-    "loading.path",           "loading.step",
-    "loading.until",          NULL,
-};
-
 /* One entry: the step that it follows, and "group.key=value". */
 struct entry {
     int64_t step;
     char *assignment;
 };
 
-static bool assigns(const char *assignment, const char *key)
+/* The key that is assigned, with its group or without it, if it may change; NULL: none. */
+static const struct gb_field *allowed_key(const char *assignment)
 {
-    const size_t length = strlen(key);
-    return strncmp(assignment, key, length) == 0 && assignment[length] == '=';
-}
-
-/* The allowed key that is assigned, with its group or without it; NULL: none. */
-static const char *allowed_key(const char *assignment)
-{
-    for (size_t i = 0; allowed[i] != NULL; i++) {
-        if (assigns(assignment, allowed[i]) ||
-            assigns(assignment, strchr(allowed[i], '.') + 1)) {
-            return allowed[i];
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    const size_t length = strcspn(assignment, "=");
+    const char *dot = memchr(assignment, '.', length);
+    const size_t group = dot == NULL ? 0 : (size_t)(dot - assignment);
+    const char *key = dot == NULL ? assignment : dot + 1;
+    const size_t key_length = length - (size_t)(key - assignment);
+    for (size_t i = 0; assignment[length] == '=' && i < count; i++) {
+        if (fields[i].may_change && strlen(fields[i].key) == key_length &&
+            strncmp(fields[i].key, key, key_length) == 0 &&
+            (dot == NULL || (strlen(fields[i].group) == group &&
+                             strncmp(fields[i].group, assignment, group) == 0))) {
+            return &fields[i];
         }
     }
     return NULL;
+}
+
+/* "contact.alpha, contact.mu, ...".  g_free. */
+static char *allowed_names(void)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    GString *names = g_string_new("");
+    for (size_t i = 0; i < count; i++) {
+        if (fields[i].may_change) {
+            g_string_append_printf(names, "%s%s.%s", names->len > 0 ? ", " : "",
+                                   fields[i].group, fields[i].key);
+        }
+    }
+    return g_string_free(names, FALSE);
 }
 
 /* The likely key comes before the list of those that may change. */
 static bool refuse_key(const char *assignment, struct gb_error *err)
 {
     char *name = g_strndup(assignment, strcspn(assignment, "="));
-    char *names = g_strjoinv(", ", (char **)allowed);
+    char *names = allowed_names();
     if (gb_params_find_name(g_strstrip(name), err) != NULL) {
         if (strchr(assignment, '=') == NULL) {
             gb_error_set(err, GB_ERR_INPUT, "%.60s: missing \"=value\"", assignment);
@@ -197,13 +207,13 @@ int64_t gb_changes_next(const struct gb_params *params, int64_t step)
     return next > step ? next : -1;
 }
 
-/* "mu=0.3" becomes "contact.mu=0.3" where the key is one of the allowed. */
+/* "mu=0.3" becomes "contact.mu=0.3" where the key is one that may change. */
 static char *with_group(const char *assignment)
 {
-    const char *key = allowed_key(assignment);
-    return key == NULL || assigns(assignment, key)
+    const struct gb_field *field = allowed_key(assignment);
+    return field == NULL || memchr(assignment, '.', strcspn(assignment, "=")) != NULL
                ? g_strdup(assignment)
-               : g_strdup_printf("%.*s.%s", (int)strcspn(key, "."), key, assignment);
+               : g_strdup_printf("%s.%s", field->group, assignment);
 }
 
 /* "mu = 0.3" is written without blanks around the sign. */

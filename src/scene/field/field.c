@@ -172,16 +172,9 @@ bool gb_field_valid(const struct gb_field *field, const struct gb_params *params
     return false;
 }
 
-bool gb_field_listed(const struct gb_field *field, const char *const *names)
+bool gb_field_applies(const struct gb_field *field, const struct gb_params *params)
 {
-    const size_t group = strlen(field->group);
-    for (int i = 0; names[i] != NULL; i++) {
-        const char *name = names[i];
-        if (strncmp(name, field->group, group) == 0 &&
-            (name[group] == '\0' ||
-             (name[group] == '.' && strcmp(name + group + 1, field->key) == 0))) {
-            return true;
-        }
-    }
-    return false;
+    return (field->kinds == 0 || (field->kinds >> params->kind & 1u) != 0) &&
+           (field->laws == 0 || (field->laws >> params->normal & 1u) != 0) &&
+           (field->applies == NULL || field->applies(params));
 }

@@ -37,8 +37,9 @@ int gb_field_find_choice(const struct gb_field *field, const char *text);
 /* How a choice is stored: names that are numbers ("3", "2") as that number, others as
  * their index. */
 int gb_field_choice_value(const struct gb_field *field, int index);
-/* Is it in a NULL-terminated list of "group.key", or "group" for all of its keys? */
-bool gb_field_listed(const struct gb_field *field, const char *const *names);
+/* Does it change anything in a scene of these parameters?  Other fields are left out of the
+ * editor's list; presets may contain them. */
+bool gb_field_applies(const struct gb_field *field, const struct gb_params *params);
 /* Valid UTF-8 without control characters. */
 bool gb_field_plain_text(const char *text);
 

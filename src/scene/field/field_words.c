@@ -6,104 +6,16 @@
 
 #include "scene/field/params_table.h"
 
-/* In the order of the field table. */
-static const struct {
-    const char *group, *key, *words;
-} table[] = {
-    {"scene", "kind", "quasi-static, dynamics, die compaction"},
-    {"scene", "dimension", "2D, 3D, discs, spheres"},
-    {"material", "young", "E, Young, elastic modulus, modulus, stiffness"},
-    {"material", "poisson", "nu, Poisson ratio"},
-    {"material", "density", "rho, true density, mass density"},
-    {"material", "epsilon",
-     "attraction, adhesion, cohesion, van der Waals, dispersion, surface energy"},
-    {"material", "yield", "sigma_Y, yield strength, plasticity, hardness"},
-    {"material", "hardening", "m, strain hardening"},
-    {"material", "hollomon", "sigma_0, strength coefficient"},
-    {"particles", "count", "N, number of particles, particle number"},
-    {"particles", "diameter", "d, size, particle size, grain size, radius"},
-    {"particles", "distribution", "size, size distribution, sizes, polydispersity"},
-    {"particles", "median", "size, d50, log-normal"},
-    {"particles", "sigma", "size, width, standard deviation, polydispersity, log-normal"},
-    {"particles", "least", "size, smallest size, log-normal"},
-    {"particles", "largest", "size, largest size, log-normal"},
-    {"particles", "table", "size, size table, sieve"},
-    {"contact", "normal", "contact law, force law, Hertz, rod model"},
-    {"contact", "alpha", "surface gap, attraction, adhesion, cohesion, dispersion"},
-    {"contact", "mu", "friction, friction coefficient, sliding, slip"},
-    {"contact", "mu_wall", "wall friction, die friction"},
-    {"contact", "mu_pivot", "pivoting, twisting, torsion, pivoting friction"},
-    {"contact", "bridge_length", "bridge, solid bridge, neck, sintering, d_r,ch"},
-    {"contact", "shear_strength", "sigma_b, bridge strength, bond strength, neck"},
-    {"contact", "bridge_radius", "neck radius"},
-    {"contact", "viscosity", "eta, viscous forces, dissipation"},
-    {"contact", "damping", "xi, restitution, dissipation"},
-    {"contact", "radius_i", "size"},
-    {"contact", "radius_j", "size"},
-    {"structure", "kind", "initial structure, lattice, crystal"},
-    {"structure", "from", "import, tomography, LAMMPS, Yade"},
-    {"structure", "density", "initial density, packing fraction, porosity"},
-    {"structure", "base", "cell size, cell width, aspect ratio"},
-    {"structure", "r_meso", "aggregates, agglomerates"},
-    {"structure", "seed", "random number"},
-    {"die", "diameter", "bore, die size"},
-    {"die", "height", "funnel height"},
-    {"die", "outlet", "funnel outlet"},
-    {"die", "angle", "funnel angle, hopper"},
-    {"die", "gravity", "weight"},
-    {"die", "fill_gravity", "filling"},
-    {"die", "punch_mass", "punch"},
-    {"die", "central", "central region"},
-    {"die", "cycle", "ejection, springback"},
-    {"die", "eject_speed", "ejection"},
-    {"die", "weld_strength", "cold weld, weld, green strength"},
-    {"loading", "geometry", "loading mode, compression mode"},
-    {"loading", "step", "strain step, strain increment"},
-    {"loading", "until", "pressure, maximum pressure, final pressure, compaction pressure"},
-    {"loading", "unload_from", "unloading, springback, unloading pressure"},
-    {"loading", "path", "legs, shear, cyclic loading, creep"},
-    {"loading", "changes", "what-if"},
-    {"loading", "rate", "strain rate, compaction rate, speed"},
-    {"loading", "time", "pressing time, duration"},
-    {"numerics", "fidelity", "accuracy, quality, cost"},
-    {"numerics", "relaxer", "solver, FIRE, minimiser"},
-    {"numerics", "tolerance", "residual, convergence, accuracy"},
-    {"numerics", "cutoff", "range, reach"},
-    {"numerics", "precision", "single precision, double precision, float"},
-    {"numerics", "threads", "cores, processors, parallel"},
-    {"numerics", "max_evaluations", "iterations"},
-    {"numerics", "time_step", "dt, integration step"},
-    {"output", "snapshots_at", "states, pictures"},
-    {"output", "export", "ParaView, OVITO, LAMMPS, VTK, trajectory"},
-    {"output", "checkpoint_every", "saving, restart"},
-    {"output", "on_hangup", "SSH, disconnection"},
-};
-
 enum { EXACT = 100, SYNONYM = 80, BEGINS = 60, CONTAINS = 50, WORDS = 10 };
-
-const char *gb_field_words(const struct gb_field *field)
-{
-    for (size_t i = 0; i < G_N_ELEMENTS(table); i++) {
-        if (strcmp(table[i].group, field->group) == 0 &&
-            strcmp(table[i].key, field->key) == 0) {
-            return table[i].words;
-        }
-    }
-    return "";
-}
-
-size_t gb_field_words_count(void)
-{
-    return G_N_ELEMENTS(table);
-}
 
 /* alpha to omega, with the final sigma between rho and sigma, and the micro sign. */
 static const char *greek_name(gunichar ch)
 {
-    static const char *const names[] = {
-        "alpha",   "beta", "gamma", "delta", "epsilon", "zeta",  "eta", "theta", "iota",
-        "kappa",   "lambda", "mu",  "nu",    "xi",      "omicron", "pi", "rho",  "sigma",
-        "sigma", "tau",  "upsilon", "phi", "chi",     "psi",   "omega"};
+    static const char *const names[] = {"alpha",   "beta", "gamma", "delta", "epsilon",
+                                        "zeta",    "eta",  "theta", "iota",  "kappa",
+                                        "lambda",  "mu",   "nu",    "xi",    "omicron",
+                                        "pi",      "rho",  "sigma", "sigma", "tau",
+                                        "upsilon", "phi",  "chi",   "psi",   "omega"};
     enum { FIRST = 0x3b1, MICRO = 0xb5, EPSILON_SYMBOL = 0x3f5, PHI_SYMBOL = 0x3d5 };
     if (ch == MICRO) {
         return "mu";
@@ -126,8 +38,8 @@ static char *normal_form(const char *text)
         if (name != NULL) {
             g_string_append(form, name);
         } else if (ch == '_' || ch == '-' || g_unichar_isspace(ch)) {
-            g_string_append(form, form->len > 0 && form->str[form->len - 1] != ' ' ? " "
-                                                                                  : "");
+            g_string_append(form,
+                            form->len > 0 && form->str[form->len - 1] != ' ' ? " " : "");
         } else {
             g_string_append_unichar(form, ch);
         }
@@ -176,7 +88,7 @@ int gb_field_words_rank(const struct gb_field *field, const char *text)
     char *wanted = normal_form(text);
     char *key = normal_form(field->key);
     char *full = g_strconcat(field->group, ".", key, NULL);
-    char *words = normal_form(gb_field_words(field));
+    char *words = normal_form(field->words != NULL ? field->words : "");
     char *meaning = normal_form(field->meaning);
     char *description =
         g_strconcat(field->group, " ", key, " ", words, " ", meaning, NULL);

@@ -5,13 +5,6 @@
 
 /* Parameters by what they mean: by key, symbol, synonym and words of the meaning. */
 
-/* Synonyms and symbols of a parameter, comma-separated: "friction, sliding friction";
- * "": none. */
-const char *gb_field_words(const struct gb_field *field);
-
-/* Number of parameters with synonyms. */
-size_t gb_field_words_count(void);
-
 /* How near a parameter is to a text: 0: not at all; an exact key is nearest, then a
  * synonym, part of the key, and words that begin in synonyms or meaning, all of them.  Case
  * counts nowhere, a Greek letter is its name, an underscore a blank. */

@@ -145,15 +145,11 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
     static const struct gb_record_member members[] = {
         {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct die_loading, not_quasistatic),
          "1"},
-    };
-    static const struct gb_record_member carried[] = {
         {"die/highest", GB_RECORD_DOUBLE, 1, offsetof(struct die_loading, highest), "E"},
         {"die/last", GB_RECORD_DOUBLE, 1, offsetof(struct die_loading, last), "E"},
     };
-    /* records of earlier versions have none */
-    const bool known = !record->loading || gb_record_find(record, "die/last");
-    return gb_record_members(record, members, 1, loading, err) &&
-           (!known || gb_record_members(record, carried, 2, loading, err)) &&
+    return gb_record_members(record, members, sizeof members / sizeof members[0], loading,
+                             err) &&
            gb_die_stages_record(own(loading)->stages, loading->bed, record, err);
 }
 

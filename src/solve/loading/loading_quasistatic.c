@@ -17,7 +17,6 @@ struct quasistatic_loading {
     struct gb_strain_step step;
     /* Where the unloading branch began: all that the loading branch depends on. */
     struct gb_record branch_start;
-    struct gb_world_copy *old_branch_start; /* of a checkpoint of version 0.1, or NULL */
     struct gb_quasistatic schedule;
 };
 
@@ -64,7 +63,6 @@ static bool build_from(struct gb_loading *loading, struct gb_record *record,
 static void finish(struct gb_loading *loading)
 {
     struct quasistatic_loading *run = own(loading);
-    gb_world_copy_destroy(run->old_branch_start);
     gb_record_finish(&run->branch_start);
     gb_strain_step_finish(&run->step);
 }
@@ -155,8 +153,6 @@ static bool record_branch_start(struct quasistatic_loading *run, struct gb_recor
 static bool save_branch_start(struct quasistatic_loading *run, struct gb_error *err)
 {
     gb_record_clear(&run->branch_start);
-    gb_world_copy_destroy(run->old_branch_start);
-    run->old_branch_start = NULL;
     const bool done = record_branch_start(run, &run->branch_start, err);
     if (run->base.model->numerics.single) {
         gb_record_remove(&run->branch_start, "world/pair_force"); /* for pictures only */
@@ -171,25 +167,10 @@ static bool restore_branch_start(struct quasistatic_loading *run, struct gb_erro
     struct gb_world *world = run->base.world;
     const int64_t evaluations = gb_world_evaluations(world);
     run->base.restored = true;
-    if (run->old_branch_start) {
-        return gb_world_copy_restore(world, run->old_branch_start, err) &&
-               gb_world_evaluate(world, err);
-    }
     run->branch_start.loading = true;
     const bool done = record_branch_start(run, &run->branch_start, err);
     gb_world_set_evaluations(world, evaluations);
     return done;
-}
-
-/* The start of the branch in a checkpoint. */
-static bool record_branch(struct quasistatic_loading *run, struct gb_record *record,
-                          struct gb_error *err)
-{
-    if (run->old_branch_start ||
-        (record->loading && gb_record_find(record, "branch/position"))) {
-        return gb_world_copy_record(run->base.world, &run->old_branch_start, record, err);
-    }
-    return gb_record_nest(record, "branch_", &run->branch_start, err);
 }
 
 static enum gb_step_outcome save_good(struct quasistatic_loading *run,
@@ -282,7 +263,8 @@ static bool record_schedule(struct gb_loading *loading, struct gb_record *record
     struct quasistatic_loading *run = own(loading);
     return gb_quasistatic_record(&run->schedule, record, err) &&
            gb_relax_record(run->step.relax, loading->model->count, record, err) &&
-           (run->schedule.branch <= 0 || record_branch(run, record, err)) &&
+           (run->schedule.branch <= 0 ||
+            gb_record_nest(record, "branch_", &run->branch_start, err)) &&
            (!record->loading || check_loaded(run, err));
 }
 

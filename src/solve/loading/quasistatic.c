@@ -37,18 +37,12 @@ bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record
         {"load/last_pressure", GB_RECORD_DOUBLE, 1, AT(last_pressure), "E"},
         {"load/last_expansion", GB_RECORD_DOUBLE, 1, AT(last_expansion), "1"},
         {"load/expansions", GB_RECORD_INT32, 1, AT(expansions), "1"},
+        {"load/exceeded", GB_RECORD_DOUBLE, 1, AT(exceeded), "E"},
+        {"load/exceeded_by", GB_RECORD_DOUBLE, 1, AT(exceeded_by), "1"},
     };
 #undef AT
     if (!gb_record_members(record, members, sizeof members / sizeof members[0], load,
                            err)) {
-        return false;
-    }
-    const bool missing =
-        record->loading && !gb_record_find(record, "load/exceeded"); /* an older record */
-    if (!missing && (!gb_record_array(record, "load/exceeded", GB_RECORD_DOUBLE, 1, 1,
-                                      "E", &load->exceeded, err) ||
-                     !gb_record_array(record, "load/exceeded_by", GB_RECORD_DOUBLE, 1, 1,
-                                      "1", &load->exceeded_by, err))) {
         return false;
     }
     if (load->next_unload < 0 || load->next_unload > load->unload_count ||

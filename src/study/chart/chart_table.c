@@ -330,7 +330,7 @@ static bool measure_g(struct gb_chart_size *size, const struct gb_chart_plan *pl
     double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
     bool done = g != NULL;
     for (int s = 0; s < seeds && done; s++) {
-        model.seed.value = plan->params.seed + (uint64_t)s;
+        model.seed = plan->params.seed + (uint64_t)s;
         done = add_g(&model, size->half_edge, bins, g, err);
     }
     for (int k = 0; k < bins && done; k++) {

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/field/applies.h"
 #include "scene/field/field.h"
 #include "tui/app/keys.h"
 #include "tui/panel/panels.h"
@@ -20,7 +19,7 @@ void gb_panel_params_list_init(struct gb_param_list *list, const struct gb_param
     int line = -1;
     list->count = 0;
     for (size_t i = 0; i < count && list->count < GB_PARAM_LIST_MAX; i++) {
-        if (!all && !gb_applies_field(params, &field[i])) {
+        if (!all && !gb_field_applies(&field[i], params)) {
             continue;
         }
         const bool first = strcmp(field[i].group, group) != 0;
@@ -290,7 +289,7 @@ static void draw_field(const struct gb_panel_params *panel, const struct gb_pain
     const struct gb_field *field = &gb_params_fields(&count)[index];
     const bool differs = gb_session_differs(session, field);
     const bool focused_row = index == panel->focus;
-    const bool unused = !gb_applies_field(gb_session_params(session), field);
+    const bool unused = !gb_field_applies(field, gb_session_params(session));
     enum gb_style style = differs  ? GB_STYLE_CHANGED
                           : unused ? GB_STYLE_DIM
                                    : GB_STYLE_PLAIN;
@@ -389,7 +388,7 @@ void gb_panel_params_go(struct gb_panel_params *panel, struct gb_session *sessio
     size_t count = 0;
     panel->focus = field;
     panel->all |=
-        !gb_applies_field(gb_session_params(session), &gb_params_fields(&count)[field]);
+        !gb_field_applies(&gb_params_fields(&count)[field], gb_session_params(session));
 }
 
 void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *session,

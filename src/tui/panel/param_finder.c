@@ -2,7 +2,7 @@
 
 #include <glib.h>
 
-#include "scene/field/applies.h"
+#include "scene/field/field.h"
 #include "scene/field/field_words.h"
 
 /* Columns of a wide list; a narrow one leaves the meaning out. */
@@ -60,7 +60,7 @@ static void write_field(void *data, int item, struct gb_list_box_line *line)
     char value[GB_PARAMS_VALUE_MAX];
     gb_params_format(&finder->params, field, value, sizeof value);
     line->style =
-        gb_applies_field(&finder->params, field) ? GB_STYLE_PLAIN : GB_STYLE_DIM;
+        gb_field_applies(field, &finder->params) ? GB_STYLE_PLAIN : GB_STYLE_DIM;
     line->cell[0] = g_strdup_printf("%s.%s", field->group, field->key);
     line->cell[1] = g_strdup(value);
     line->cell[2] = g_strdup(field->meaning);
@@ -79,10 +79,10 @@ static void draw_words(const struct gb_param_finder *finder, const struct gb_pai
         return;
     }
     const struct gb_field *field = &gb_params_fields(&count)[selected];
-    const char *words = gb_field_words(field);
+    const char *words = field->words != NULL ? field->words : "";
     char *text = g_strdup_printf(
         "%s%s%s%s", field->meaning, *words != '\0' ? "; also: " : "", words,
-        gb_applies_field(&finder->params, field) ? "" : " (no effect on this scene)");
+        gb_field_applies(field, &finder->params) ? "" : " (no effect on this scene)");
     gb_paint_wrap(paint, row, WORDS_ROWS, GB_STYLE_DIM, text);
     g_free(text);
 }

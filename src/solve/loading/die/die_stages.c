@@ -373,9 +373,6 @@ bool gb_die_stages_record(struct gb_die_stages *stages, const struct gb_bed *bed
         {"press/wanted", GB_RECORD_DOUBLE, 1, AT(now.punch.wanted), "E T"},
         {"press/floor", GB_RECORD_DOUBLE, 1, AT(now.punch.floor), "E T"},
         {"press/side", GB_RECORD_DOUBLE, 2, AT(now.punch.side), "E T"},
-    };
-    /* Records of earlier versions have none of them. */
-    static const struct gb_record_member cycle_members[] = {
         {"cycle/ramp", GB_RECORD_INT32, 1, AT(now.punch.ramp), "1"},
         {"cycle/work", GB_RECORD_DOUBLE, 1, AT(now.punch.work), "E d^3"},
         {"cycle/position", GB_RECORD_DOUBLE, 1, AT(now.punch.position), "d"},
@@ -386,12 +383,8 @@ bool gb_die_stages_record(struct gb_die_stages *stages, const struct gb_bed *bed
     };
 #undef AT
     struct gb_die_progress *now = &stages->now;
-    const bool known = !record->loading || gb_record_find(record, "cycle/ramp");
     if (!gb_record_members(record, members, sizeof members / sizeof members[0], stages,
                            err) ||
-        (known && !gb_record_members(record, cycle_members,
-                                     sizeof cycle_members / sizeof cycle_members[0],
-                                     stages, err)) ||
         !gb_die_state_surface_record(&stages->side, "cycle/side", bed->count, record,
                                      err) ||
         !gb_die_state_surface_record(&stages->top, "cycle/top", bed->count, record,

@@ -760,23 +760,6 @@ void gb_leg_run_init(struct gb_leg_run *run, const struct gb_model *model)
                                .identity = identity(&model->path)};
 }
 
-/* Records of earlier versions have none. */
-static bool record_exceeded(struct gb_leg_run *run, struct gb_record *record,
-                            struct gb_error *err)
-{
-#define AT(member) offsetof(struct gb_leg_run, member)
-    static const struct gb_record_member members[] = {
-        {"path/exceeded", GB_RECORD_INT32, 1, AT(exceeded), "1"},
-        {"path/exceeded_leg", GB_RECORD_INT32, 1, AT(exceeded_leg), "1"},
-        {"path/exceeded_end", GB_RECORD_INT32, 1, AT(exceeded_end), "1"},
-        {"path/exceeded_value", GB_RECORD_DOUBLE, 1, AT(exceeded_value), "E or 1"},
-    };
-#undef AT
-    return (record->loading && !gb_record_find(record, "path/exceeded")) ||
-           gb_record_members(record, members, sizeof members / sizeof members[0], run,
-                             err);
-}
-
 static bool names_an_end(const struct gb_leg_run *run, const struct gb_path *path)
 {
     return run->exceeded_leg >= 0 && run->exceeded_leg < path->count &&
@@ -815,13 +798,14 @@ bool gb_leg_run_record(struct gb_leg_run *run, const struct gb_model *model,
         {"path/affine", GB_RECORD_DOUBLE, N * N, AT(affine), "E"},
         {"path/tangent", GB_RECORD_DOUBLE, N * N, AT(tangent), "E"},
         {"path/small", GB_RECORD_DOUBLE, N * N, AT(small), "E"},
+        {"path/exceeded", GB_RECORD_INT32, 1, AT(exceeded), "1"},
+        {"path/exceeded_leg", GB_RECORD_INT32, 1, AT(exceeded_leg), "1"},
+        {"path/exceeded_end", GB_RECORD_INT32, 1, AT(exceeded_end), "1"},
+        {"path/exceeded_value", GB_RECORD_DOUBLE, 1, AT(exceeded_value), "E or 1"},
     };
 #undef AT
     if (!gb_record_members(record, members, sizeof members / sizeof members[0], run,
                            err)) {
-        return false;
-    }
-    if (!record_exceeded(run, record, err)) {
         return false;
     }
     if (run->identity != identity(&model->path)) {
