@@ -362,7 +362,7 @@ static const struct array_row table[] = {
      "particles x 3, E d^3: resultant"},
     {"velocity", GB_ARRAY_DOUBLE, 3, SPEED, find_velocity,
      "particles x 3, d/T with T = sqrt(m/(E d)); of scenes with time, in a periodic cell "
-     "beside its affine motion"},
+     "in addition to its affine motion"},
     {"spin", GB_ARRAY_DOUBLE, 3, ROTATION_SPEED, find_spin,
      "particles x 3, 1/T: angular velocity; of scenes with time"},
     {"coordination", GB_ARRAY_INT32, 1, PURE, find_coordination,

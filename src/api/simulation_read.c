@@ -129,8 +129,8 @@ bool gb_simulation_save(struct gb_simulation *simulation, const char *path,
     if (gb_simulation_points(simulation) == 0 ||
         (last != GB_STEP_POINT && last != GB_STEP_DONE)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: the packing is between two recorded points; a state is "
-                            "that of a point",
+                            "%s: the packing is between two recorded points; a state belongs "
+                            "to a point",
                             path);
     }
     struct gb_record *record = gb_alloc_array(1, sizeof *record, err);

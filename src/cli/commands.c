@@ -41,7 +41,7 @@ static const struct gb_commands_row rows[] = {
      gb_cmd_cycle},
     {numerics, "chart", "accuracy against cost of the numerical settings of a scene",
      gb_cmd_chart},
-    {numerics, "stability", "longest stable step of each method, beside theory",
+    {numerics, "stability", "longest stable step of each method, and theory",
      gb_cmd_stability},
     {lists, "law", "values of a contact law as CSV", gb_cmd_law},
     {lists, "params", "every preset key: unit, range, default, meaning, source",

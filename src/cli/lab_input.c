@@ -27,7 +27,7 @@ static const struct {
 
 const char gb_lab_input_help[] =
     "Measured points may come as a spreadsheet or a testing machine exports them: any\n"
-    "separator, decimal mark, encoding and names.  One line on stderr says how the file\n"
+    "separator, decimal mark, encoding and names.  One line on stderr reports how the file\n"
     "was read; what can be read in two ways is questions, or refused with the --columns to\n"
     "give.  A list as pressure=2:MPa,density=4:% names columns by number or by their\n"
     "heads in double quotes, with units; quantities: pressure, density, porosity, force,\n"

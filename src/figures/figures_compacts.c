@@ -709,7 +709,7 @@ static bool draw_strength_curves(struct gb_series *series, const struct chosen *
                                                      "density %g.",
                       chosen->value);
     gb_series_caption(series,
-                      "Pale: each cell; lines: their mean as far as all cells go, "
+                      "Pale: each cell; lines: their mean where all cells are, "
                       "with one standard error.");
     return true;
 }

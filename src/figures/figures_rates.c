@@ -912,7 +912,7 @@ static bool compute_decay(struct gb_series *series, const struct gb_figures_inpu
     }
 
 const struct gb_figures_row gb_figures_rates_rows[] = {
-    {"difference", "pressure minus that of the reference, with P2 (9)", "P2 Fig. 3",
+    {"difference", "pressure minus the reference, with P2 (9)", "P2 Fig. 3",
      GB_FIGURES_RUNS, GB_FIGURES_ON_REQUEST, GB_FIGURES_REFERENCE,
      .ignored_keys = gb_figures_after_loading, .x = GB_FIGURES_DENSITY_AXIS,
      .y = {.name = "difference_MPa", .label = "pressure difference Δ<i>p</i> (MPa)"},

@@ -288,7 +288,7 @@ static const char *storage_fault(hid_t set, double bytes)
         return "keeps its data in another file";
     }
     const double stored = (double)H5Dget_storage_size(set);
-    return stored * packing_limit < bytes ? "is shorter than it says" : NULL;
+    return stored * packing_limit < bytes ? "is shorter than its header states" : NULL;
 }
 
 /* What is wrong with the type and shape of an open dataset, or NULL; sets *rows. */

@@ -204,7 +204,7 @@ const char *gb_die_scene_note(const struct gb_model *model, int index, char *buf
         note_ramp(model, buffer, size);
         return buffer;
     case 3:
-        snprintf(buffer, size, "rotational inertia: %g times that of the spheres",
+        snprintf(buffer, size, "rotational inertia: %g times the spheres' own",
                  die->inertia_scale);
         return buffer;
     case 4:

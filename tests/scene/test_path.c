@@ -177,9 +177,9 @@ static void test_refused(void)
         {"triaxial at 5 MPa to 5 % at 6 MPa", "'at': must be given once", 3},
         {"triaxial to 5 % at x = 5 MPa at y = 5 MPa", "'at': must be the end", 3},
         {"hold at z = 5 MPa 3 times at x = 5 MPa", "'at': must be given once", 3},
-        {"triaxial to 5 % at x = y = 0 z", "'0': a share must not be 0", 3},
-        {"triaxial to 5 % at x = y by 0 z", "'0': a share must not be 0", 3},
-        {"radial 0 to 5 MPa", "'radial 0': a share must not be 0", 3},
+        {"triaxial to 5 % at x = y = 0 z", "'0': a fraction must not be 0", 3},
+        {"triaxial to 5 % at x = y by 0 z", "'0': a fraction must not be 0", 3},
+        {"radial 0 to 5 MPa", "'radial 0': a fraction must not be 0", 3},
     };
     for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
         struct gb_path path;

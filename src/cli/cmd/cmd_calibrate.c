@@ -133,7 +133,7 @@ static const char about_file[] =
     "FILE.csv has the columns p_MPa and density, and may have density_error, branch\n"
     "(load, or unload: the density left after unloading from p_MPa) and keys with\n"
     "their unit, as particles.diameter_nm, where several powders are fitted together.\n"
-    "Instead of density or beside it: lateral_ratio (px/pz), coordination and\n"
+    "Instead of density, or together with it: lateral_ratio (px/pz), coordination and\n"
     "unloading_modulus_GPa (secant from p to p/2); several quantities need their\n"
     "errors, lateral_ratio_error ...; weight counts a row more or less than its error.\n"
     "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv\n"

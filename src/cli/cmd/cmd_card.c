@@ -172,7 +172,7 @@ int gb_cmd_card(int argc, char **argv)
         {"transition", 0, 0, G_OPTION_ARG_DOUBLE, &request.transition,
          "a of the transition surface, 0.01 to 0.05 (0.03)", "A"},
         {"flow", 0, 0, G_OPTION_ARG_DOUBLE, &request.flow,
-         "weight of the directions of flow beside the positions of the points (1)",
+         "weight of directions of flow over the weight of positions (1)",
          "WEIGHT"},
         {"jobs", 'j', 0, G_OPTION_ARG_INT, &request.jobs,
          "cells at once (one per processor)", "N"},

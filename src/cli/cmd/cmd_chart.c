@@ -225,7 +225,7 @@ static bool write_table(const struct chart *chart, struct gb_error *err)
                         chart->allowed > 0.0 ? chart->allowed : (double)NAN);
     char *comment = g_strdup_printf(
         "preset: %s\n%s\n"
-        "error: density minus that of the reference, same seeds; scatter: standard "
+        "error: density minus the density of the reference, same seeds; scatter: standard "
         "deviation between the seeds; bound: largest |error| + error_se\n"
         "step and step_error are fractions; cpu_s and evaluations: mean of one cell, "
         "loading only",
@@ -417,7 +417,7 @@ static bool write_quantities(const struct chart *chart, const struct gb_quantity
 {
     bool good = true;
     char *comment = g_strdup_printf(
-        "preset: %s\n%s\nerror: value minus that of the reference, same seeds, mean; "
+        "preset: %s\n%s\nerror: value minus the value of the reference, same seeds, mean; "
         "error_95: half of its 95 %% interval; bound: |error| + error_95; half_interval: "
         "half of the 95 %% interval of the default with %d cells; cost: processor time "
         "over the default's; settings in SI",
@@ -565,7 +565,7 @@ int gb_cmd_chart(int argc, char **argv)
         {"budget", 0, 0, G_OPTION_ARG_STRING, &chart.budget_text,
          "CPU time after which it stops", "'10 min'"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &chart.pressures,
-         "pressures (those of unloading and the final one); of a quantity the compact",
+         "pressures (where it unloads, and the final one); of a quantity the compact",
          "'100 MPa; 1 GPa'"},
         {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.vary,
          "values of a key; repeated: all combinations", "group.key=A,B,..."},

@@ -186,7 +186,7 @@ static bool perform(const struct request *request, char **words, struct gb_error
     if (request->contacts != NULL &&
         gb_file_is_same(request->contacts, request->output)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--contacts %.300s: expected a name other than that of -o",
+                            "--contacts %.300s: expected another name than -o has",
                             request->contacts);
     }
     job.density_kg_m3 = solid_density(job.source);
@@ -214,7 +214,7 @@ static char *describe(void)
         "torques where the run has\nthem; contacts with forces, areas and "
         "bridges.  Lengths in nm, velocities in m/s,\nforces in nN (pN in "
         "dumps), stresses in MPa, positive in compression.  Contacts\nare a "
-        "dump of LAMMPS beside its formats, else a table.  Pairs that attract across a\n"
+        "dump with formats of LAMMPS, else a table.  Pairs that attract across a\n"
         "gap follow them, with a negative overlap.\n\n"
         "  greenbody export run --format extxyz --all -o run.xyz\n"
         "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"

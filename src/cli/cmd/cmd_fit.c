@@ -349,8 +349,8 @@ static char *describe_equations(void)
         text,
         "\nThe density is fitted as a function of the pressure, at the same points for "
         "all\nequations.  Runs of one scene are replicas: their mean at up to 48 "
-        "pressures, weighted\nby its standard errors.  Heckel's parameters are those of "
-        "the straightest stretch of\nthe Heckel plot, dAICc and rms those of all "
+        "pressures, weighted\nby its standard errors.  Heckel's parameters belong to "
+        "the straightest stretch of\nthe Heckel plot, dAICc and rms to all "
         "points.  A file of this program has the\ncolumns density (or density_percent) "
         "and p_MPa (or pressure_MPa; Pa, kPa, GPa), and\noptionally density_error, branch "
         "(load, unload), series.\n\n");

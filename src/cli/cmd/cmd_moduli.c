@@ -521,13 +521,13 @@ int gb_cmd_moduli(int argc, char **argv)
          "one header row and one row per state", NULL},
         gb_options_json(&request.json),
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
-         "states, as \"p=100 MPa; density=0.5\" (default: those of output.snapshots_at "
+         "states, as \"p=100 MPa; density=0.5\" (default: as in output.snapshots_at "
          "and the last; a lattice as it was placed)",
          "POINTS"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
          "runs that differ by their seed; means with standard errors (1)", "N"},
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &request.out,
-         "folder of moduli.csv, for plot --figure moduli; a run directory keeps those of "
+         "folder of moduli.csv, for plot --figure moduli; a run directory keeps the moduli of "
          "its own states, and only new ones are probed",
          "DIR"},
         {"no-range", 0, 0, G_OPTION_ARG_NONE, &request.quick,

@@ -309,7 +309,7 @@ static char *describe_figures(void)
         "critical-step, take a preset and group.key=value\nin place of runs; "
         "card, moduli, yield, strength and chart the directory of the command of their\n"
         "name; two of moduli are compared.\n"
-        "A figure has a twin ending in .csv beside it;\n"
+        "A figure has a twin ending in .csv next to it;\n"
         "the table of --data has the columns of its axes, and may have "
         "series (words) and\n<column>_error.\n\n");
     char *journals = gb_page_options_journals();
@@ -366,7 +366,7 @@ int gb_cmd_plot(int argc, char **argv)
         {"figure", 0, 0, G_OPTION_ARG_STRING, &request.figure, "one of those below",
          "NAME"},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
-         "the figure, and its data beside it (standard output)", texts.output},
+         "the figure, and its data next to it (standard output)", texts.output},
         GB_PAGE_OPTIONS_ENTRIES(&request.page),
         {"log", 0, 0, G_OPTION_ARG_STRING, &request.log, "axes that are logarithmic",
          "x|y|xy"},
@@ -375,7 +375,7 @@ int gb_cmd_plot(int argc, char **argv)
         {"paper", 0, 0, G_OPTION_ARG_NONE, &request.paper,
          "numbers that the papers print for the scenes of the runs, as marks", NULL},
         {"inset", 0, 0, G_OPTION_ARG_STRING, &request.inset,
-         "enlarges a part of the x axis in a free corner; or none", "FROM:TO"},
+         "enlarges a range of the x axis in a free corner; or none", "FROM:TO"},
         {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},
         {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
          NULL},

@@ -25,7 +25,7 @@ int gb_cmd_resume(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "DIR",
-        "Continues an interrupted run from its last checkpoint, to the same bits as\n"
+        "Continues an interrupted run from its last checkpoint, bit-identical to a run\n"
         "without the interruption.",
         "Rows of curve.csv after the checkpoint are computed again.  preset.ini may\n"
         "have changed in [output], title and threads only."};

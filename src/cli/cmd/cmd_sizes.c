@@ -144,7 +144,7 @@ int gb_cmd_sizes(int argc, char **argv)
         "length) and the number of its particles, count, or their share, share_number.\n"
         "Maximum likelihood; the limits of the classes lie halfway between the middles.\n"
         "A chi-squared test asks whether the law describes the counts.  If its probability\n"
-        "is below 0.05, a line says so and the exit status is 1."};
+        "is below 0.05, a line reports it and the exit status is 1."};
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;

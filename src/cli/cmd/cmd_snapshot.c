@@ -261,7 +261,7 @@ static bool parse_options(struct request *request, int argc, char **argv, char *
         {"force", 0, 0, G_OPTION_ARG_NONE, &request->force, "replace an existing picture",
          NULL},
         {"view", 0, 0, G_OPTION_ARG_STRING, &request->view,
-         "corner, front, side, top or AZIMUTH,ELEVATION in degrees; ,flat behind it: "
+         "corner, front, side, top or AZIMUTH,ELEVATION in degrees; ,flat after it: "
          "no perspective",
          "VIEW"},
         GB_PAGE_OPTIONS_ENTRIES(&request->page),
@@ -286,7 +286,7 @@ static bool parse_options(struct request *request, int argc, char **argv, char *
         {"cut", 0, 0, G_OPTION_ARG_STRING, &request->cut,
          "cut away what is beyond y=0.5, or the corner nearest to the viewer", "PLANE"},
         {"rose", 0, 0, G_OPTION_ARG_NONE, &request->rose,
-         "beside it the mean normal force by direction, as a surface", NULL},
+         "next to it the mean normal force by direction, as a surface", NULL},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request->at,
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (default: the last)",
          "POINT"},

@@ -70,7 +70,7 @@ int gb_cmd_strength(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
-        "Strength of compacts after unloading.  Cells are pressed as the preset says, all\n"
+        "Strength of compacts after unloading.  Cells are pressed as in the preset, all\n"
         "stresses are taken away, and copies are stretched and compressed along z at\n"
         "p_x = p_y = 0, and sheared along xz at p_z = 0, to beyond the largest stress.",
         "DIR receives strength.csv (largest stress, strain, bridges broken, Weibull\n"

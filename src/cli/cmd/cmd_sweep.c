@@ -380,7 +380,7 @@ int gb_cmd_sweep(int argc, char **argv)
          "a grid; sensitivities go to DIR/sensitivity.csv",
          "sobol:N"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
-         "runs per point, seeds counted up from that of the preset (1)", "N"},
+         "runs per point, seeds counted up from structure.seed (1)", "N"},
         {"until-se", 0, 0, G_OPTION_ARG_STRING, &request.target,
          "end the replicas of a point, at 4 or more, when the standard error of its "
          "density at a pressure is this small",

@@ -78,9 +78,9 @@ int gb_cmd_yield(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
-        "Yield surface and plastic flow of compacts.  Cells are pressed as the preset says\n"
+        "Yield surface and plastic flow of compacts.  Cells are pressed as in the preset\n"
         "(its path, or its geometry) to densities or pressures, unloaded to a point inside\n"
-        "(a share of p, q = 0), and copies are loaded from there along directions of the\n"
+        "(a fraction of p, q = 0), and copies are loaded from there along directions of the\n"
         "(p, q) plane until the plastic strain reaches an offset.",
         "DIR receives yield.csv (points, flow), yield_cells.csv, yield_fit.csv (ellipse,\n"
         "dilatancy, angle between flow and normal), yield.md and scene.ini; half and\n"
@@ -99,7 +99,7 @@ int gb_cmd_yield(int argc, char **argv)
         {"directions", 0, 0, G_OPTION_ARG_INT, &request.yield.directions,
          "evenly spaced in the (p, q) plane (12)", "N"},
         {"inside", 0, 0, G_OPTION_ARG_DOUBLE, &request.yield.inside,
-         "pressure where probes begin, over that of the compact (0.5)", "0.5"},
+         "pressure where probes begin, over the compact's (0.5)", "0.5"},
         {0}};
     GOptionEntry entries[GB_COMPACT_OPTIONS_ENTRIES + G_N_ELEMENTS(own)];
     gb_compact_options_entries(&request.common, entries);

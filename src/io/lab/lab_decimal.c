@@ -82,7 +82,7 @@ static enum gb_lab_outcome decide_by(struct gb_lab_reading *reading,
         gb_lab_question_choice(reading, "decimal=comma");
         gb_lab_question_choice(reading, "decimal=point");
         return gb_lab_question_ask(
-            reading, "'%s' in line %d beside '%s' in line %d: which is the decimal mark?",
+            reading, "'%s' in line %d and '%s' in line %d: which is the decimal mark?",
             used->comma_text, used->comma_line, used->point_text, used->point_line);
     }
     reading->decimal = decide(used);

@@ -163,7 +163,7 @@ bool gb_state_optional_check(const struct gb_state *state, const struct gb_recor
         const struct gb_record_item *item = find_item(state, row, record);
         if (item && (item->type != GB_RECORD_DOUBLE || item->rows != state->count ||
                      item->columns != item_columns(state, row))) {
-            return gb_error_set(err, GB_ERR_INPUT, "%s: is of another shape", item->name);
+            return gb_error_set(err, GB_ERR_INPUT, "%s: has another shape", item->name);
         }
     }
     return true;

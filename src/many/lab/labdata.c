@@ -84,7 +84,7 @@ static bool check_series(const struct gb_table *table, struct gb_error *err)
         if (strcmp(word, gb_table_word(table, 0)) != 0) {
             return gb_error_set(
                 err, GB_ERR_INPUT,
-                "%.200s:%d: series %.80s behind %.80s; expected one, with "
+                "%.200s:%d: series %.80s after %.80s; expected one, with "
                 "--series, or columns of keys as particles.diameter_nm",
                 gb_table_path(table), gb_table_line(table, i), word,
                 gb_table_word(table, 0));

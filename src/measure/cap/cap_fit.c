@@ -255,7 +255,7 @@ static bool cap_side_fit(struct cap_side_found *found, const struct cap_side *si
     } else {
         good = solve(found, &problem, x, work, covariance) ||
                gb_error_set(err, GB_ERR_NOT_CONVERGED,
-                            "no cap through %zu points beside d = %.4g MPa, beta = %.4g "
+                            "no cap through %zu points with d = %.4g MPa, beta = %.4g "
                             "degrees",
                             side->count, line->d / 1e6, line->beta * 180.0 / M_PI);
     }

@@ -103,7 +103,7 @@ static bool check_loading(const struct gb_params *params, struct gb_error *err)
         return gb_error_set(
             err, GB_ERR_INPUT, "loading.until = density = %g: must be above %s %g",
             params->until_density,
-            gb_imported_given(params) ? "that of structure.from," : "structure.density =",
+            gb_imported_given(params) ? "the density of structure.from," : "structure.density =",
             start);
     }
     if (!isnan(params->until_pressure_pa) && params->unload_count > 0) {

@@ -279,7 +279,7 @@ static const struct gb_field rows[] = {
      .source = "P2 (3)", .kinds = DYNAMIC},
     {"contact", "damping", GB_FIELD_NUMBER, AT(damping), RANGE(0.0, 10.0),
      .fallback = "0.9",
-     .meaning = "normal damping xi of hertz and storakers, as a share of the critical",
+     .meaning = "normal damping xi of hertz and storakers, as a fraction of the critical",
      .source = "P3 (7), 5", .symbol = "<i>ξ</i>", .words = "xi, restitution, dissipation",
      .kinds = DIE},
     {"contact", "shear_ratio", GB_FIELD_NUMBER, AT(shear_ratio), RANGE(0.01, 100.0),
@@ -369,7 +369,7 @@ static const struct gb_field rows[] = {
     {"die", "punch_mass", GB_FIELD_NUMBER, AT(punch_mass), RANGE(1e-3, 100.0),
      .fallback = "0.1",
      .meaning =
-         "mass of the punch over that of the powder; above 1 its inertia delays it",
+         "mass of the punch over the mass of the powder; above 1 its inertia delays it",
      .source = "numerical", .words = "punch", .kinds = DIE},
     {"die", "central", GB_FIELD_NUMBER, AT(central_m), .dimension = GB_DIM_LENGTH,
      RANGE(1e-9, 1.0), .fallback = "54 um",
@@ -481,7 +481,7 @@ static const struct gb_field rows[] = {
     {"numerics", "tolerance", GB_FIELD_NUMBER, AT(tolerance), RANGE(1e-12, 0.1),
      AUTO(NAN), .fallback = "auto",
      .meaning = "residual, in units of tolerance_scale, at which a step is relaxed; "
-                "predict: a share of it under light loads",
+                "predict: a fraction of it under light loads",
      .source = "numerical", .words = "residual, convergence, accuracy",
      .kinds = QUASISTATIC},
     {"numerics", "tolerance_scale", GB_FIELD_CHOICE, AT(tolerance_scale),

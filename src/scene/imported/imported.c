@@ -174,7 +174,7 @@ bool gb_imported_check_params(const struct gb_params *params, struct gb_error *e
     if (params->distribution != GB_DISTRIBUTION_MONO) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "particles.distribution: must be mono with structure.from: "
-                            "the sizes are those of %.200s",
+                            "the sizes come from %.200s",
                             path);
     }
     if (packing->planar != (params->dimension == 2)) {

@@ -145,7 +145,7 @@ static bool take_names(struct table *table, const struct gb_imported_lines *line
                gb_imported_lines_refuse(
                    lines, err,
                    "no column %s among %.80s: must be x, y, z and diameter "
-                   "or radius, a unit behind as in x_um",
+                   "or radius, with a unit as in x_um",
                    missing, line);
     }
     table->named = true;

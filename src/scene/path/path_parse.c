@@ -117,7 +117,7 @@ static bool set_radial(struct gb_path_reading *in, unsigned *own)
     gb_path_words_quantity(&in->words, GB_DIM_NONE, &ratio);
     if (ratio == 0.0) {
         return gb_error_set(in->err, GB_ERR_INPUT,
-                            "'radial 0': a share must not be 0; triaxial holds the "
+                            "'radial 0': a fraction must not be 0; triaxial holds the "
                             "others at a pressure");
     }
     *own = lateral(in);
@@ -264,7 +264,7 @@ static const struct shorthand {
      "simple shear at constant volume, or at held stresses", set_shear,
      gb_path_reading_ends},
     {"radial", "radial [RATIO] to END",
-     "one axis is strained, the stresses of the others are a share of its own",
+     "one axis is strained, the stresses of the others are a fraction of its own",
      set_radial, gb_path_reading_ends},
     {"strain", "strain z = 1, x = -0.5, ... to END [at HELD]",
      "any strains in proportion; the first leads, those not named are fixed", set_strain,

@@ -218,13 +218,13 @@ static bool read_value(struct gb_path_reading *in, struct gb_leg_component *cont
     control->control = by ? GB_LEG_FOLLOW : GB_LEG_RATIO;
     if (!gb_path_words_quantity(&in->words, GB_DIM_NONE, &control->value)) {
         return gb_path_reading_expected(
-            in, by ? "a share of the change of another component, as in by 0.5 z"
-                   : "a pressure (50 MPa), a share of another component (0.5 z) or "
+            in, by ? "a fraction of the change of another component, as in by 0.5 z"
+                   : "a pressure (50 MPa), a fraction of another component (0.5 z) or "
                      "'held'");
     }
     if (control->value == 0.0) {
         return gb_error_set(in->err, GB_ERR_INPUT,
-                            "'0': a share must not be 0; 0 MPa and held are values");
+                            "'0': a fraction must not be 0; 0 MPa and held are values");
     }
     return gb_path_reading_component(in, &control->of);
 }
@@ -233,7 +233,7 @@ static bool set_control(struct gb_path_reading *in, int k,
                         const struct gb_leg_component *control)
 {
     const char *why = k == in->leg->leading ? "it leads the leg"
-                      : k == control->of    ? "it would be a share of itself"
+                      : k == control->of    ? "it would be a fraction of itself"
                       : gb_path_has_component(in->dimension, k)
                           ? NULL
                           : "scene.dimension = 2 has x, z and xz";

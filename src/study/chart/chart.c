@@ -822,7 +822,7 @@ bool gb_chart_open(struct gb_chart_log *log, const char *directory,
     if (!is_empty(directory)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "%.300s: holds other files and no chart; expected: a new or "
-                            "empty directory, or that of a chart",
+                            "empty directory, or a directory of a chart",
                             directory);
     }
     return write_scene(log, err) && write_runs(log, err);

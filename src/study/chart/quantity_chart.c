@@ -1250,7 +1250,7 @@ GString *gb_quantity_chart_table_text(const struct gb_quantity_table *table)
     g_string_append(
         text,
         "R reference, D the default, F Pareto-optimal in cost and deviation,\n"
-        "n the interval contains 0, * recommended; CPU s of one cell, cost over that of\n"
+        "n the interval contains 0, * recommended; CPU s of one cell, cost over the cost of\n"
         "the default; share: upper bound of the deviation over half of the interval\n\n");
     if (!isfinite(table->allowed)) {
         g_string_append(text, "two seeds of a setting are needed for an interval\n");

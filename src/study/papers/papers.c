@@ -543,7 +543,7 @@ static void add_method(GString *text, const char *command)
         "*Within error* is a difference of\nat most %g standard errors, the root of the "
         "summed squares of the error here, of the printed error,\nof the rounding of the "
         "printed digits (1/sqrt 12 of the last one; 10 %% of the value where the paper\n"
-        "says \"about\"), and of the error of the paper's own mean where it says how many "
+        "prints \"about\"), and of the error of the paper's own mean where it states how many "
         "cells it averages,\nfrom the scatter of cells here. \"<\" is an upper bound of "
         "the magnitude. \"points\" are %% of theoretical\ndensity. Sources, line by "
         "line: `assets/data/papers.csv`.\n",

@@ -686,8 +686,8 @@ static const char rates[] = "the pressures prefer no exponent; `docs/validation.
 static const char own_rule[] =
     "the paper's own rule, a curve through the yield point, gives 1049 MPa";
 static const char softest[] =
-    "the printed range is that of m = 0.1 and 0.2; m = 0 is softer";
-static const char own_law[] = "the hardening law is that of the curve here";
+    "the printed range is from m = 0.1 to 0.2; m = 0 is softer";
+static const char own_law[] = "the hardening law comes from the curve here";
 static const char filling[] =
     "the paper states neither the funnel nor the gravity nor the damping of its filling";
 static const char bed[] = "one bed of the paper; beds scatter, `docs/die.md`";

@@ -33,7 +33,7 @@ static const struct row choice_rows[GB_PICTURE_FORM_CHOICES] = {
                               {{"particles", NULL},
                                {"forces", "--show=forces"},
                                {"particles and forces", "--show=both"},
-                               {"particles, force rose beside", "--rose"}}},
+                               {"particles and force rose", "--rose"}}},
     [GB_PICTURE_FORM_COLOUR] = {"colour",
                                 {{"coordination number", NULL},
                                  {"pressure", "--color=pressure"},

@@ -176,7 +176,7 @@ void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key)
         gb_screen_commands_message(
             app, GB_STYLE_WARN,
             "a what-if continues from an equilibrium, which only quasi-static runs have: "
-            "change the parameter and start anew with r");
+            "change the parameter and start again with r");
         return;
     }
     if (!gb_session_run_is_live(&screen->session)) {
