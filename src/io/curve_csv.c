@@ -37,14 +37,13 @@ static const char *compressed_axes(const struct gb_params *params)
 }
 
 static const char die_note[] =
-    "# die: floor_MPa and wall_friction_mN are means since the last point, while loading "
-    "those of the point; wall_MPa is the radial pressure at the point, wall_low, "
-    "wall_middle and wall_high that on the thirds of the powder's height; "
-    "wall_friction_mN "
+    "# die: floor_MPa and wall_friction_mN are means since the last point, and while "
+    "loading values at the point; wall_MPa is the radial pressure at the point, wall_low, "
+    "wall_middle and wall_high the same on thirds of the powder's height; wall_friction_mN "
     "is the axial force of the wall on the powder, downward: the force of ejection; "
-    "punch_work_J since pressing began; axial springback is the height over that under "
-    "the full pressure, radial springback the outer radius over that of the bore, each "
-    "less 1; welded is the share of the cold welds that holds\n";
+    "punch_work_J since pressing began; axial springback is the height over the height "
+    "under the full pressure, radial springback the outer radius over the radius of the "
+    "bore, each less 1; welded is the fraction of cold welds that hold\n";
 
 static const char tensor_note[] =
     "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry "
@@ -67,8 +66,8 @@ static const struct {
          tensor_note},
     [GB_COLUMNS_DIE] =
         {"# die: p and pz are what the powder carries under the punch, px and py the "
-         "mean on the side wall; density is that of the whole specimen, central_density "
-         "that of a ball in its middle; height_change is relative to the height before "
+         "mean on the side wall; density is the whole specimen's, central_density "
+         "a ball's in its middle; height_change is relative to the height before "
          "pressing; time_ns is simulated time, wanted_MPa the scheduled pressure, "
          "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
          die_note},
@@ -89,11 +88,11 @@ GString *gb_curve_csv_head(const struct gb_params *params)
     g_string_free(title, TRUE);
     g_string_append_printf(head, "# seed: %" PRIu64 "\n", params->seed);
     g_string_append(
-        head, "# units: pressures in MPa; density is the share of the volume "
-              "that is solid; bridged is a share of the contacts, rattlers of "
-              "the particles; residual is the rms force over the mean contact force or "
-              "f_a(d), whichever is larger, in every numerics.tolerance_scale; seconds "
-              "of wall time since the start\n");
+        head,
+        "# units: pressures in MPa; density is the solid fraction of the volume; "
+        "bridged is a fraction of the contacts, rattlers of the particles; residual is the rms force over the mean contact force or "
+        "f_a(d), whichever is larger, in every numerics.tolerance_scale; seconds "
+        "of wall time since the start\n");
     g_string_append_printf(
         head,
         "# p_MPa: mean pressure over the compressed axes (%s), positive "

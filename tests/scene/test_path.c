@@ -153,7 +153,7 @@ static void test_refused(void)
         {"uniaxial to 5 nm", "must be", 3},
         {"uniaxial to density 1.5", "must be between 0 and 1", 3},
         {"triaxial to 5 % at z = 5 MPa", "it leads the leg", 3},
-        {"triaxial to 5 % at x = 0.5 x", "share of itself", 3},
+        {"triaxial to 5 % at x = 0.5 x", "fraction of itself", 3},
         {"triaxial to 5 % at x 5 MPa", "'=' or 'by'", 3},
         {"unload", "must follow a leg", 3},
         {"cycle 2 times hold between 1 MPa and 2 MPa", "must be of a leg that moves", 3},

@@ -133,7 +133,7 @@ int gb_cmd_runs(int argc, char **argv)
     static const struct gb_options_page page = {
         "[FOLDER]...",
         "Lists the runs below folders: live, detached and past ones, with the density and\n"
-        "pressure of their last point, size on the disk and date.  Without a folder: those\n"
+        "pressure of their last point, size on the disk and date.  Without a folder: the runs\n"
         "of the workbench, and of `runs` in the working folder.",
         "live: a process computes the run; detached: one without a terminal;\n"
         "interrupted: its process has ended before the run, and `greenbody resume`\n"
