@@ -189,7 +189,7 @@ static void test_read_back(void)
         struct gb_curve *curve = NULL;
         struct gb_point point = {0};
         const struct gb_point_column *row;
-        params.kind = (enum gb_kind)kind;
+        params.kind = kind;
         for (size_t r = 1; (row = gb_point_columns_at(r)) != NULL; r++) {
             for (size_t k = 0; row->columns != NULL && k < row->count; k++) {
                 gb_point_columns_set(row, &point, k, (double)(1 + 10 * r + k));

@@ -351,12 +351,12 @@ static void test_guards(void)
 /* Full relative motion at v2: at 1 T friction caps hide that the step is about to become
  * unstable; half a T passes.  The sliding contacts show it at about the density where the
  * estimate of the critical step says so: which guard is first is decided by rounding, in
- * each packing anew: this one in about a third of them (27 of 88), and in two or more of
- * these six, which were taken from 40 for that (11 of the 40).  Either halves the step, and this one is seen at work. */
+ * each packing: this one in about a third of them (27 of 88).  Either halves the step; of
+ * 18 packings one at least shows this one at work (all but one time in a thousand). */
 static void test_sliding(void)
 {
     int slid = 0;
-    for (int seed = 5; seed <= 10; seed++) {
+    for (int seed = 5; seed <= 10 || (slid == 0 && seed <= 22); seed++) {
         char assignment[32];
         snprintf(assignment, sizeof assignment, "structure.seed=%d", seed);
         struct gb_params params = planar("numerics.time_step=0.5 T", assignment);
@@ -376,7 +376,7 @@ static void test_sliding(void)
         g_assert_true(by_sliding || strstr(out.first, "above the critical") != NULL);
         slid += by_sliding;
     }
-    g_assert_cmpint(slid, >=, 2);
+    g_assert_cmpint(slid, >=, 1);
 }
 
 /* Little friction and no bridges: many contacts slide at any step.  The guard tries half
