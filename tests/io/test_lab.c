@@ -274,7 +274,7 @@ static const struct question questions[] = {
     {"both marks",
      "p (MPa);d (%)\n1,5;45.5\n2,5;50.5\n",
      NULL,
-     "'1,5' in line 2 beside '45.5' in line 2",
+     "'1,5' in line 2 and '45.5' in line 2",
      {"pressure=1:MPa,density=2:%,decimal=comma"},
      -1,
      0.0,
