@@ -368,7 +368,7 @@ static void test_refused_behind(void)
         {"fit powders.csv", "powders.csv: expected one series of A, B"},
         {"fit powders.csv --series C", "--series C: expected one series of A, B"},
         {"calibrate default --data powders.csv --free contact.mu -o fit",
-         "powders.csv:3: series B behind A"}};
+         "powders.csv:3: series B after A"}};
     for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
         struct result result = call(cases[i][0]);
         char **lines = g_strsplit(result.err, "\n", -1);
