@@ -43,8 +43,9 @@ void gb_listing_quote(struct gb_listing *listing);
 /* Adds columns: names separated by commas, or one name by a printf format.
  *
  * format  how cells are printed, a constant.  Numbers: a printf format for one double, as
- *         "%.8g", or "" for all its digits; "%.0f" for integers.  Texts: "%s", or "\"%s\"" for quotes in CSV
- *         also where they are not needed, or "`%s`" for code in Markdown. */
+ *         "%.8g", or "" for all its digits; "%.0f" for integers.  Texts: "%s", or
+ *         "\"%s\"" for quotes in CSV also where they are not needed, or "`%s`" for code in
+ *         Markdown. */
 void gb_listing_columns(struct gb_listing *listing, const char *format,
                         const char *names);
 void gb_listing_column(struct gb_listing *listing, const char *format, const char *name,

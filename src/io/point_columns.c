@@ -5,18 +5,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MEMBER_AT(name)  .member = #name, .offset = offsetof(struct gb_point, name)
-#define BRANCH(name) MEMBER_AT(name), .count = 1, .type = 'i', .scenes = GB_POINT_ALL
-#define WHOLE(name)  MEMBER_AT(name), .count = 1, .type = 'q', .scenes = GB_POINT_ALL
+#define MEMBER_AT(name) .member = #name, .offset = offsetof(struct gb_point, name)
+#define BRANCH(name)    MEMBER_AT(name), .count = 1, .type = 'i', .scenes = GB_POINT_ALL
+#define WHOLE(name)     MEMBER_AT(name), .count = 1, .type = 'q', .scenes = GB_POINT_ALL
 #define NUMBERS(name, of)                                                                \
-    MEMBER_AT(name), .count = sizeof(((struct gb_point *)0)->name) / sizeof(double),         \
-                 .type = 'd', .scenes = GB_POINT_##of
+    MEMBER_AT(name), .count = sizeof(((struct gb_point *)0)->name) / sizeof(double),     \
+                     .type = 'd', .scenes = GB_POINT_##of
 #define COLUMNS(names, unit_in_si) .columns = names, .si = unit_in_si
 #define KEPT(name, unit_of_item, of)                                                     \
     .item = name, .unit = unit_of_item, .kept = GB_POINT_##of
 /* Successive rows of one name share an item. */
 #define TOGETHER(name, of) KEPT(name, "SI", of)
-#define STATE(name)     .state = name
+#define STATE(name)        .state = name
 
 static const struct gb_point_column table[] = {
     {BRANCH(branch), COLUMNS("branch", 1.0), KEPT("branch", "1", ALL)},
@@ -73,7 +73,8 @@ static const struct gb_point_column table[] = {
     {NUMBERS(wall_pa, DIE), COLUMNS("wall_MPa", 1e6), TOGETHER("die", DIE)},
     {NUMBERS(wall_third_pa, DIE),
      COLUMNS("wall_low_MPa,wall_middle_MPa,wall_high_MPa", 1e6), TOGETHER("die", DIE)},
-    {NUMBERS(wall_friction_n, DIE), COLUMNS("wall_friction_mN", 1e-3), TOGETHER("die", DIE)},
+    {NUMBERS(wall_friction_n, DIE), COLUMNS("wall_friction_mN", 1e-3),
+     TOGETHER("die", DIE)},
     {NUMBERS(punch_work, DIE), COLUMNS("punch_work_J", 1.0), TOGETHER("die", DIE)},
     {NUMBERS(axial_springback, DIE), COLUMNS("axial_springback_percent", 1e-2),
      TOGETHER("die", DIE)},

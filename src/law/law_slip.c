@@ -31,7 +31,7 @@ double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a)
     return roll_stiffness(law->roll, a * a, a);
 }
 
-/* Constants of the caps; M(a) is that of the rod law. */
+/* Constants of the caps; M(a) comes from the rod law. */
 static struct slip_law constants_of(const struct gb_law_slip *law)
 {
     const struct gb_law_rod none = {0};

@@ -19,8 +19,8 @@
  *             s = r + alpha d0
  *   bridges   bridge_length in d is in D; a_ch = sqrt(d' (D - r_min))/2
  *
- * In units of D these are the laws of equal spheres with factors of c = d'/D.  The
- * formulas are those of law/normal.h. */
+ * In units of D these are the laws of equal spheres with factors of c = d'/D.  
+ * law/normal.h has the formulas. */
 struct gb_law_unequal {
     double mean_diameter;  /* D, in the model's lengths, as everything without a note */
     double diameter_ratio; /* c */

@@ -191,7 +191,7 @@ INLINE struct normal normal_of(struct terms t, const struct normal_law *law,
     const real force =
         on_tangent(rod_force(hertz, from, rod, x, of.tail_at), slope, from, overlap);
     const real_bits near = bit_mask(t.sized ? -h < law->gap : r * r < law->cutoff2);
-    /* s of a contact of unequal sizes is that of two that touch: the pull is the adhesion */
+    /* a contact of unequal sizes has the s of touching particles: the pull is the adhesion */
     const real adhesion = t.sized ? of.pull : law->adhesion;
     const real apart = masked(near, -of.pull), touching = force - adhesion;
     /* without a contact the overlap is 0, and so are force and slope */

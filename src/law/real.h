@@ -35,9 +35,9 @@ INLINE real where(bool condition, real x)
     return condition ? x : 0;
 }
 
-/* All bits where the condition holds, else none; `where` and ?: for such masks.  Numbers
- * behind a condition the compiler would read from memory under it, which not every
- * processor can. */
+/* All bits where the condition holds, else none; `where` and ?: for such masks.  The
+ * compiler would load the numbers of a condition under a mask, which not every processor
+ * can. */
 INLINE real_bits bit_mask(bool condition)
 {
     return condition ? ~(real_bits)0 : 0;

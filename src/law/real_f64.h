@@ -56,7 +56,7 @@ INLINE real magnitude(real x)
 }
 
 /* -(h + ln(1 - h)) for 0 <= h <= 1/2 to the last digit, with s = h / (2 - h):
- * 2 (s^2/(1+s) + s^3/3 + s^5/5 + ...), all terms positive; the series behind the first
+ * 2 (s^2/(1+s) + s^3/3 + s^5/5 + ...), all terms positive; the series after the first
  * term is fitted by Chebyshev polynomials with a relative error of 3e-17. */
 INLINE real log_tail(real h, real s)
 {

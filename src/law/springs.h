@@ -79,7 +79,7 @@ INLINE struct slip_law slip_law(const struct gb_law_slip *slip,
     };
 }
 
-/* k_t of (4); factors are those of slip_law. */
+/* k_t of (4); a factor is a member of slip_law. */
 INLINE real shear_stiffness(real factor, real a)
 {
     return factor * a;

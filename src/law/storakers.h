@@ -8,8 +8,8 @@
  * The force is Hertz' at the elastic part y of the overlap.  On the loading curve (16)
  * means, with h_x the overlap where (2) and (16) meet,
  *     y = h_x (h/h_x)^((2+m)/3),
- * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is that of
- * Hertz and y = h; the printed law uses (16) there too.  Unloading and reloading keep the
+ * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is
+ * Hertz' and y = h; the printed law uses (16) there too.  Unloading and reloading keep the
  * permanent part h - y of the deepest overlap: (19) with (20), integrated. */
 
 #include "law/law_hertz.h"

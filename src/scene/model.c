@@ -218,7 +218,7 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
     return true;
 }
 
-/* Largest equilibrium overlap by adhesion, over D: that of two of the smallest particles; NaN
+/* Largest equilibrium overlap by adhesion, over D: two of the smallest particles have it; NaN
  * when adhesion is too strong for the laws to hold. */
 static double largest_equilibrium(const struct gb_model *model)
 {

@@ -228,16 +228,7 @@ struct variant {
 
 #define ROW(name, attribute, ...) {{__VA_ARGS__}, name},
 
-COMBINATIONS(VARIANT, w128, )
-static const struct variant table128[] = {COMBINATIONS(ROW, w128, )};
-#if GB_SIMD_LEVELS
-COMBINATIONS(VARIANT, w256, GB_TARGET_256)
-COMBINATIONS(VARIANT, w512, GB_TARGET_512)
-static const struct variant table256[] = {COMBINATIONS(ROW, w256, )};
-static const struct variant table512[] = {COMBINATIONS(ROW, w512, )};
-#endif
-
-enum { VARIANTS = sizeof table128 / sizeof table128[0] };
+GB_SIMD_TABLES
 
 gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
                                  enum gb_bed_partner partner, int widest)
@@ -246,15 +237,7 @@ gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
     const struct bed_terms wanted = {.storakers = law->storakers,
                                      .printed = law->storakers && law->normal.printed,
                                      .friction = mu > 0.0};
-#if GB_SIMD_LEVELS
-    const int width = gb_simd_width(widest);
-    const struct variant *table = width == 512   ? table512
-                                  : width == 256 ? table256
-                                                 : table128;
-#else
-    (void)widest;
-    const struct variant *table = table128;
-#endif
+    const struct variant *table = table_for(widest);
     int row = 0;
     while (row < VARIANTS - 1 && (table[row].terms.storakers != wanted.storakers ||
                                   table[row].terms.printed != wanted.printed ||

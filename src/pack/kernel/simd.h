@@ -91,6 +91,36 @@ static inline int gb_simd_width(int widest)
     }
 #endif
 
+/* Defines the functions of a table of kernels and `const struct variant *table_for(int
+ * widest)`, with VARIANTS rows; widest as in gb_simd_width.  The file defines `struct
+ * variant` and three macros: VARIANT(name, attribute, terms...) with the functions of one
+ * combination of terms, ROW(same) with its row and a comma, and COMBINATIONS(X, width,
+ * attribute), which applies X to every combination. */
+#define GB_SIMD_TABLE(width, attribute)                                                  \
+    COMBINATIONS(VARIANT, width, attribute)                                              \
+    static const struct variant width##_table[] = {COMBINATIONS(ROW, width, attribute)};
+#if GB_SIMD_LEVELS
+#define GB_SIMD_TABLES                                                                   \
+    GB_SIMD_TABLE(w128, )                                                                \
+    GB_SIMD_TABLE(w256, GB_TARGET_256)                                                   \
+    GB_SIMD_TABLE(w512, GB_TARGET_512)                                                   \
+    enum { VARIANTS = sizeof w128_table / sizeof w128_table[0] };                        \
+    static const struct variant *table_for(int widest)                                   \
+    {                                                                                    \
+        const int width = gb_simd_width(widest);                                         \
+        return width == 512 ? w512_table : width == 256 ? w256_table : w128_table;       \
+    }
+#else
+#define GB_SIMD_TABLES                                                                   \
+    GB_SIMD_TABLE(w128, )                                                                \
+    enum { VARIANTS = sizeof w128_table / sizeof w128_table[0] };                        \
+    static const struct variant *table_for(int widest)                                   \
+    {                                                                                    \
+        (void)widest;                                                                    \
+        return w128_table;                                                               \
+    }
+#endif
+
 #define GB_SIMD_LOOP static inline __attribute__((always_inline))
 
 /* Prefetches a cache line into the L2 cache: the line fill buffers of L1 are few, and

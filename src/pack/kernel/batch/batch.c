@@ -77,27 +77,7 @@ struct variant {
 #define ROW(name, attribute, ...)                                                        \
     {{__VA_ARGS__}, {name##_advance, name##_tally, name##_attract}},
 
-COMBINATIONS(VARIANT, w128, )
-static const struct variant table128[] = {COMBINATIONS(ROW, w128, )};
-#if GB_SIMD_LEVELS
-COMBINATIONS(VARIANT, w256, GB_TARGET_256)
-COMBINATIONS(VARIANT, w512, GB_TARGET_512)
-static const struct variant table256[] = {COMBINATIONS(ROW, w256, )};
-static const struct variant table512[] = {COMBINATIONS(ROW, w512, )};
-#endif
-
-enum { VARIANTS = sizeof table128 / sizeof table128[0] };
-
-static const struct variant *table_for(int widest)
-{
-#if GB_SIMD_LEVELS
-    const int width = gb_simd_width(widest);
-    return width == 512 ? table512 : width == 256 ? table256 : table128;
-#else
-    (void)widest;
-    return table128;
-#endif
-}
+GB_SIMD_TABLES
 
 /* Discs of several sizes pass through the laws of spheres; cohesionless laws have no viscous
  * partner. */

@@ -6,7 +6,7 @@
 
 /* The laws of law/normal.h and law/springs.h in loops over a batch.  One source, compiled
  * once per useful combination of terms and per vector width.  Nothing but the order of
- * lanes differs between the widths (contraction is off), so they give the same bits.  And
+ * lanes differs between the widths (contraction is off), so their results are bit-identical.  And
  * once per precision: batch_f64.h or batch_f32.h, included before, defines `real`. */
 
 INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
