@@ -760,6 +760,16 @@ static bool add_product(GArray *settings, const struct gb_quantity_study *study,
     return good;
 }
 
+/* The default times a factor, within the range of the key. */
+static double scaled(const struct gb_quantity_axis *axis, double own, int factor)
+{
+    const struct gb_field *field =
+        axis->set != NULL ? gb_params_find_name(axis->name, NULL) : NULL;
+    const double value = own * axis->factor[factor];
+    return field != NULL && field->type == GB_FIELD_NUMBER ? fmax(value, field->min)
+                                                           : value;
+}
+
 /* All combinations of the factors of the axes from `axis` to before `end`. */
 static bool add_factors(GArray *settings, const struct gb_quantity_study *study,
                         const struct gb_quantity_setting *from, int axis, int end,
@@ -770,7 +780,7 @@ static bool add_factors(GArray *settings, const struct gb_quantity_study *study,
     }
     for (int k = 0; k < GB_QUANTITY_FACTORS && study->axis[axis].factor[k] > 0.0; k++) {
         struct gb_quantity_setting one = *from;
-        one.value[axis] *= study->axis[axis].factor[k];
+        one.value[axis] = scaled(&study->axis[axis], from->value[axis], k);
         if (!add_factors(settings, study, &one, axis + 1, end, err)) {
             return false;
         }
@@ -784,7 +794,7 @@ static bool add_reference(GArray *settings, const struct gb_quantity_study *stud
 {
     struct gb_quantity_setting reference = *own;
     for (int a = 0; a < gb_quantity_chart_axes(study); a++) {
-        reference.value[a] *= study->axis[a].factor[0];
+        reference.value[a] = scaled(&study->axis[a], own->value[a], 0);
     }
     for (int i = 0; changes != NULL && changes[i] != NULL; i++) {
         const char *text;
