@@ -425,6 +425,11 @@
  * way. */
 #define GB_PROBE_RESIDUAL       1e-10
 #define GB_PROBE_RESIDUAL_START 1e-4
+/* The same where the equilibrium is not stable, and what tells that it is not: the sum of
+ * the changes of stress by two opposite strains, over their difference.  Larger residuals:
+ * Newton's method finds it again. */
+#define GB_PROBE_RESIDUAL_STABLE 1e-7
+#define GB_PROBE_ASYMMETRY       0.5
 /* A copy with a larger one has no equilibrium to probe. */
 #define GB_PROBE_RESIDUAL_MAX 1e-5
 

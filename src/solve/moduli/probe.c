@@ -593,15 +593,14 @@ bool gb_probe_return(struct gb_probe *probe, const struct gb_world_copy *copy,
            gb_world_evaluate(probe->world, err) && gb_probe_advance(probe, err);
 }
 
-/* From the state of a run to equilibrium within GB_PROBE_RESIDUAL: FIRE as far as Newton's
- * method needs it, then Newton's method in one increment. */
-static bool balance(struct gb_probe *probe, struct gb_error *err)
+/* From the state of a run to equilibrium within GB_PROBE_RESIDUAL: FIRE to the residual
+ * `first`, then Newton's method in one increment. */
+static bool balance(struct gb_probe *probe, double first, struct gb_error *err)
 {
     static const double none[3][3] = {{0.0}};
     const double scale = imbalance(probe->world) / gb_world_residual(probe->world);
     const double target = fmax(GB_PROBE_RESIDUAL * scale, rounding(probe->world));
-    if (imbalance(probe->world) > GB_PROBE_RESIDUAL_START * scale &&
-        !relax(probe, GB_PROBE_RESIDUAL_START * scale, err)) {
+    if (imbalance(probe->world) > first * scale && !relax(probe, first * scale, err)) {
         return false;
     }
     if (imbalance(probe->world) > target) {
@@ -618,16 +617,52 @@ static bool balance(struct gb_probe *probe, struct gb_error *err)
 
 /* The same from a state in single precision, whose sliding contacts slide here as well.
  * Each motion to equilibrium takes some of them off their caps, by less each time. */
-static bool balance_rounded(struct gb_probe *probe, struct gb_error *err)
+static bool balance_rounded(struct gb_probe *probe, double first, struct gb_error *err)
 {
     double most = INFINITY;
     for (int k = 0; k < GB_PROBE_CAPS_ROUNDS && most > GB_PROBE_CAPS; k++) {
         if (!gb_cap_rounding_undo(probe->world, &most, err) ||
-            !gb_world_evaluate(probe->world, err) || !balance(probe, err)) {
+            !gb_world_evaluate(probe->world, err) || !balance(probe, first, err)) {
             return false;
         }
     }
     return true;
+}
+
+/* A copy of a state in equilibrium.  first: residual at which Newton's method takes over. */
+static bool balance_from(struct gb_probe *probe, const struct gb_world_copy *start,
+                         bool rounded, double first, struct gb_error *err)
+{
+    return gb_world_copy_restore(probe->world, start, err) &&
+           gb_world_evaluate(probe->world, err) &&
+           (rounded ? balance_rounded(probe, first, err) : balance(probe, first, err));
+}
+
+/* Do the smallest strains of both signs change the stress alike?  Contacts that slide one way
+ * only leave a difference of a fifth.  Where Newton's method has found an equilibrium that
+ * is not stable, the particles leave it, and the stress jumps by as much at any strain. */
+static bool is_stable(struct gb_probe *probe, struct gb_error *err)
+{
+    static const double size = GB_PROBE_STRAIN_MIN;
+    const double strain[2][3][3] = {
+        {{0.0, 0.0, size}, {0.0, 0.0, 0.0}, {size, 0.0, size}},
+        {{0.0, 0.0, -size}, {0.0, 0.0, 0.0}, {-size, 0.0, -size}}};
+    double pressure[2][3][3], apart = 0.0, change = 0.0;
+    for (int side = 0; side < 2; side++) {
+        memset(probe->motion, 0, BLOCK * (size_t)probe->model.count * sizeof(double));
+        if (!gb_probe_strain(probe, strain[side], 0.0, GB_PROBE_SHARE, pressure[side],
+                             err)) {
+            return false;
+        }
+    }
+    for (int k = 0; k < 9; k++) {
+        const double rest = probe->pressure[k / 3][k % 3];
+        const double one = pressure[0][k / 3][k % 3] - rest;
+        const double other = pressure[1][k / 3][k % 3] - rest;
+        apart = fmax(apart, fabs(one + other));
+        change = fmax(change, fabs(one - other));
+    }
+    return apart <= GB_PROBE_ASYMMETRY * change;
 }
 
 static bool copy_world(struct gb_probe *probe, const struct gb_world *world,
@@ -635,12 +670,16 @@ static bool copy_world(struct gb_probe *probe, const struct gb_world *world,
 {
     const bool rounded = gb_world_model(world)->numerics.single;
     struct gb_world_copy *start = NULL;
+    struct gb_error refused = {0};
     bool done =
         gb_world_create(&probe->world, &probe->model, gb_world_position(world), err) &&
         gb_world_copy_save(world, &start, err) &&
-        gb_world_copy_restore(probe->world, start, err) &&
-        gb_world_evaluate(probe->world, err) &&
-        (rounded ? balance_rounded(probe, err) : balance(probe, err));
+        balance_from(probe, start, rounded, GB_PROBE_RESIDUAL_START, err);
+    if (done && !is_stable(probe, &refused)) {
+        done = refused.code == GB_ERR_CANCELLED
+                   ? check_cancelled(probe, err)
+                   : balance_from(probe, start, rounded, GB_PROBE_RESIDUAL_STABLE, err);
+    }
     if (done) {
         const struct gb_nonaffine moved = gb_nonaffine_since(probe->world, start);
         probe->moved_rms = moved.rms;
