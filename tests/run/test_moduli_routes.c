@@ -278,8 +278,9 @@ static void test_stable(void)
     for (uint64_t seed = 6; seed <= 8; seed++) {
         struct gb_error err = {0};
         struct gb_probe *probe = NULL;
-        struct gb_params params = scene_params("particles.count=200", "structure.base=auto",
-                                               "loading.until=density=0.6", NULL);
+        struct gb_params params =
+            scene_params("particles.count=200", "structure.base=auto",
+                         "loading.until=density=0.6", NULL);
         params.seed = seed;
         struct gb_experiment *experiment = press(&params);
         double pressure[2][3][3], apart = 0.0, change = 0.0;
