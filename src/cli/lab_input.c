@@ -16,23 +16,25 @@ static const struct {
     const char *key, *doc, *argument;
 } keys[GB_LAB_INPUT_KEYS] = {
     {"decimal", "decimal mark of a file", "comma|point"},
-    {"separator", "between its cells", "semicolon|comma|tab|blank|bar"},
-    {"die-area", "cross section: force to pressure", "AREA"},
-    {"powder-mass", "in the die: height to density", "MASS"},
-    {"true-density", "of the solid, for g/cm3 and heights", "DENSITY"},
-    {"compliance", "of machine and punches: travel to height", "LENGTH/FORCE"},
-    {"initial-height", "of the powder at travel 0", "LENGTH"},
-    {"zero-travel", "where the punches touch without powder", "LENGTH"},
+    {"separator", "separator between cells", "semicolon|comma|tab|blank|bar"},
+    {"die-area", "cross section of the die; converts force to pressure", "AREA"},
+    {"powder-mass", "mass of powder in the die; converts height to density", "MASS"},
+    {"true-density", "density of the solid; needed for g/cm3 and heights", "DENSITY"},
+    {"compliance", "compliance of machine and punches; corrects the travel",
+     "LENGTH/FORCE"},
+    {"initial-height", "height of the powder at travel 0", "LENGTH"},
+    {"zero-travel", "travel at which the empty punches touch", "LENGTH"},
 };
 
 const char gb_lab_input_help[] =
     "Measured points may come as a spreadsheet or a testing machine exports them: any\n"
     "separator, decimal mark, encoding and names.  One line on stderr reports how the file\n"
-    "was read; what can be read in two ways is questions, or refused with the --columns to\n"
-    "give.  A list as pressure=2:MPa,density=4:% names columns by number or by their\n"
-    "heads in double quotes, with units; quantities: pressure, density, porosity, force,\n"
-    "travel, height, density_error, pressure_error, branch, series.  Keys of the options\n"
-    "may stand in the list as well: pressure=2:MPa,density=4:%,decimal=comma.";
+    "was read.  If a file can be read in two ways, the program asks on a terminal;\n"
+    "elsewhere it stops and prints the --columns to give.  A list such as\n"
+    "pressure=2:MPa,density=4:% names columns by number or by their headings in double\n"
+    "quotes, with units.  Quantities: pressure, density, porosity, force, travel, height,\n"
+    "density_error, pressure_error, branch, series.  The list may also contain the options\n"
+    "below: pressure=2:MPa,density=4:%,decimal=comma.";
 
 static GOptionEntry entry(const char *name, char **value, const char *doc,
                           const char *argument)
@@ -52,7 +54,7 @@ GOptionEntry *gb_lab_input_entries(struct gb_lab_input *input, const GOptionEntr
         entry("columns", &input->columns, "how a file of measured points is read",
               "QUANTITY=COLUMN[:UNIT],...");
     all[count++] = entry("series", &input->series,
-                         "rows of it with this word in its column series", "WORD");
+                         "use only rows with WORD in the column series", "WORD");
     for (size_t k = 0; k < GB_LAB_INPUT_KEYS; k++) {
         all[count++] =
             entry(keys[k].key, &input->value[k], keys[k].doc, keys[k].argument);

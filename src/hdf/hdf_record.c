@@ -122,7 +122,8 @@ static bool check_hash(const struct gb_record *record, struct gb_hdf *file,
                                          err) &&
            (kept == gb_record_hash(record) ||
             gb_error_set(err, GB_ERR_INPUT,
-                         "%s: checkpoint_hash: does not fit the data: damaged", path));
+                         "%s: is damaged: checkpoint_hash does not match the data",
+                         path));
 }
 
 bool gb_hdf_record_read(struct gb_record *record, const char *path, struct gb_error *err)

@@ -19,9 +19,10 @@ bool gb_follow_params(const char *directory, struct gb_params *params,
     struct gb_preset *preset = NULL;
     struct gb_error why = {0};
     char *path = g_build_filename(directory, "preset.ini", NULL);
-    bool done = g_file_test(path, G_FILE_TEST_IS_REGULAR) ||
-                gb_error_set(err, GB_ERR_INPUT,
-                             "%s: no run directory, it has no preset.ini", directory);
+    bool done =
+        g_file_test(path, G_FILE_TEST_IS_REGULAR) ||
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%s: is not a run directory: it has no preset.ini", directory);
     done = done && gb_preset_load(&preset, path, err);
     if (done) {
         *params = *gb_preset_params(preset);
@@ -201,8 +202,8 @@ bool gb_follow_request_stop(const char *directory, struct gb_error *err)
     }
     if (!works_in(engine.pid, directory)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: process %lld, named by status.json, does not work "
-                            "there; stop the engine yourself",
+                            "%s: status.json names process %lld, which does not work "
+                            "in this directory; stop the run yourself",
                             directory, engine.pid);
     }
     return kill((pid_t)engine.pid, SIGTERM) == 0 ||

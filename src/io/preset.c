@@ -213,8 +213,8 @@ static bool check_version(const char *path, const char *text, struct gb_error *e
 {
     return !g_str_has_prefix(text, "# greenbody 0.1.") ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "%s:1: greenbody 0.1: expected a preset of 0.2 or later; without "
-                        "this line it gives another packing of the same kind",
+                        "%s:1: this preset is from greenbody 0.1: expected 0.2 or later; "
+                        "delete this line to get another packing of the same kind",
                         path);
 }
 

@@ -60,8 +60,8 @@ static bool check_content(const char *path, enum gb_rundir_mode mode,
         g_clear_error(&failure);
     } else if (foreign != NULL) {
         ok = gb_error_set(err, GB_ERR_INPUT,
-                          "%s: holds \"%s\", which is not of a run; choose another "
-                          "directory (it is left as it is)",
+                          "%s: holds \"%s\", which does not belong to a run; nothing "
+                          "was changed; choose another directory",
                           path, foreign);
     } else if (entries > 0 && mode == GB_RUNDIR_KEEP) {
         ok = gb_error_set(err, GB_ERR_INPUT,
@@ -226,7 +226,7 @@ bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *er
     g_free(preset);
     if (!is_run) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: no run directory, it has no preset.ini", path);
+                            "%s: is not a run directory: it has no preset.ini", path);
     }
     *dir = (struct gb_rundir){.path = g_strdup(path), .lock = GB_LOCK_NONE};
     if (hold(dir)) {

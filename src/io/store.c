@@ -85,8 +85,8 @@ static bool reopen_lines(struct lines *lines, const char *directory, const char 
     }
     return (length >= 0 && read_lines(lines, length)) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "%s: is not as the checkpoint left it: its first %lld bytes "
-                        "should be whole lines",
+                        "%s: does not match the checkpoint: expected whole lines in its "
+                        "first %lld bytes",
                         lines->path, (long long)length);
 }
 
@@ -233,11 +233,10 @@ static bool check_sum(const struct lines *curve, const struct gb_store_extent *e
                       struct gb_error *err)
 {
     return extent->curve_sum == 0 || extent->curve_sum == (int64_t)curve->sum ||
-           gb_error_set(
-               err, GB_ERR_INPUT,
-               "%s: was changed since the checkpoint: put the file back that the "
-               "run has written, or start a new run",
-               curve->path);
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%s: was changed since the checkpoint: restore the file that the "
+                        "run wrote, or start a new run",
+                        curve->path);
 }
 
 bool gb_store_check_curve(const char *directory, const struct gb_store_extent *extent,

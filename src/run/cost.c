@@ -353,7 +353,7 @@ bool gb_cost_check_limit(const struct gb_cost *cost, struct gb_error *err)
     return gb_cost_within_limit(cost->seconds) ||
            gb_error_set(err, GB_ERR_INPUT,
                         "the run will take about %s: %.3g particle-steps at %.3gM/s; "
-                        "expected with --yes",
+                        "repeat with --yes to start it",
                         gb_cost_duration(cost->seconds, duration, sizeof duration),
                         cost->particle_steps, cost->particle_steps_per_s / 1e6);
 }

@@ -135,9 +135,10 @@ static bool check_count(const struct gb_lattice *lattice, const char *name, int6
     int64_t cells[3];
     return gb_lattice_block(lattice, count, cells) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "particles.count = %" PRId64 ": structure.kind = %s takes whole "
-                        "unit cells of %d in a block whose edges differ by a factor of "
-                        "%g at most: %" PRId64 " and %" PRId64 " fit",
+                        "particles.count = %" PRId64
+                        ": structure.kind = %s: expected whole "
+                        "unit cells of %d particles, in a block whose edges differ by a "
+                        "factor of at most %g: %" PRId64 " and %" PRId64 " fit",
                         count, name, lattice->particles, ratio_max,
                         nearest(lattice, count, -1), nearest(lattice, count, 1));
 }

@@ -18,14 +18,15 @@ bool gb_seed_check_cells(const struct gb_params *params, size_t cells,
         return true;
     }
     if (gb_imported_given(params)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "structure.from = %.200s: expected none for %zu cells, which "
-                            "differ by their seed: nothing in this scene depends on it",
-                            params->from.path, cells);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "structure.from = %.200s: expected none for %zu cells: nothing "
+            "in this scene depends on the seed, so they would be equal",
+            params->from.path, cells);
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "structure.kind = %s: expected grown for %zu cells, which differ "
-                        "by their seed: nothing in this scene depends on it",
+                        "structure.kind = %s: expected grown for %zu cells: nothing in "
+                        "this scene depends on the seed, so they would be equal",
                         gb_params_find("structure", "kind")->choices[params->structure],
                         cells);
 }

@@ -195,7 +195,7 @@ printf '2\nLattice="0 9 0 9 0 0 0 0 9" Properties=pos:R:3:radius:R:1\n1 1 1 1\n1
 refused 'a turned cell' 'turned.xyz:2: Lattice: cell vectors must be (Lx 0 0)' turned.xyz
 refused 'a word for a number' 'word.csv:15: z is one' word.csv
 refused 'no file' 'absent.csv: No such file' absent.csv
-refused 'no text' 'no text: must be' "$greenbody"
+refused 'no text' 'is not a text file: expected' "$greenbody"
 in_patience "$greenbody" run p3-hertz-mu0 structure.from=deep.csv --out refused >stdout 2>stderr
 is 'a die has no packing from a file' grep -q 'structure.from: must be empty' stderr
 

@@ -317,7 +317,7 @@ refused 'a value out of range' "$greenbody" sweep default --vary 'contact.mu=0.1
 refused 'no replicas' "$greenbody" sweep default --replicas 0 --out out
 refused 'a target without pressure' "$greenbody" sweep default --until-se 0.1 --out out
 refused 'a sweep of hours' "$greenbody" sweep p1-set2-9.7nm --replicas 900 --out out
-is 'which names the option' grep -q 'expected with --yes' stderr
+is 'which names the option' grep -q 'repeat with --yes' stderr
 refused 'pressures without unit' "$greenbody" sweep default --at 5 --out out
 refused 'a point that cannot be' "$greenbody" sweep default \
     --vary 'loading.until=1 MPa;2 GPa' --set 'loading.unload_from=1 GPa' --out out

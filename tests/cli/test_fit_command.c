@@ -264,7 +264,7 @@ static void test_spreadsheet(void)
     static const char told[] =
         "greenbody: german.csv: pressure from column 2 'Druck [MPa]' in MPa, density from "
         "column 3 'rel. Dichte [%]' in percent, density_error from column 4 'Fehler der "
-        "Dichte [%]' in percent; between semicolons, decimal comma, heads in line 3; 24 "
+        "Dichte [%]' in percent; between semicolons, decimal comma, headings in line 3; 24 "
         "points, 1 to 417.5 MPa, relative density 0.3547 to 0.7143; not read: 'Nr.'\n";
     g_assert_cmpstr(result.err, ==, told);
     char **lines[2] = {g_strsplit(own.out, "\n", -1), g_strsplit(result.out, "\n", -1)};
@@ -321,7 +321,7 @@ static const char *const refused[][2] = {
     {"plot one --figure densification --data thousands.csv", "decimal=comma"},
     {"report one --data thousands.csv -o report", "decimal=comma"},
     {"calibrate default --data thousands.csv --free contact.mu -o fit", "decimal=comma"},
-    {"fit nowhere", "nowhere: no run directory"},
+    {"fit nowhere", "nowhere: is not a run directory"},
     {"fit nowhere.csv", "nowhere.csv"},
     {"fit lab.csv few.csv", "one file of measured points at a time"},
     {"fit few.csv", "heckel: 3 points in the window; 2 parameters take 5"},

@@ -182,8 +182,8 @@ static void test_short_replica(void)
     for (int k = 0; k < 4; k++) {
         reached += end[k] >= between;
     }
-    char *all = g_strdup_printf("%s --replicas 4 --at 'density=%.6f; density=0.28'", words,
-                                between);
+    char *all = g_strdup_printf("%s --replicas 4 --at 'density=%.6f; density=0.28'",
+                                words, between);
     char **lines = table_of(NULL, all, 1);
     g_assert_cmpuint(g_strv_length(lines), ==, 4);
     int partial = 0, ends = 0;
@@ -344,8 +344,8 @@ static void test_refused(void)
         {"moduli /nonexistent", "/nonexistent: No such file"},
         {"moduli default structure.knd=fcc", "structure.knd: no such key"},
         {"moduli default structure.kind=fcc particles.count=100",
-         "particles.count = 100: structure.kind = fcc takes whole unit cells of 4 in a "
-         "block whose edges differ by a factor of 2 at most: 96 and 108 fit"},
+         "particles.count = 100: structure.kind = fcc: expected whole unit cells of 4 particles, in a "
+         "block whose edges differ by a factor of at most 2: 96 and 108 fit"},
         {"moduli default structure.kind=hexagonal particles.count=100",
          "must be grown, sc, fcc, bcc or diamond with scene.dimension = 3"},
         {"moduli default structure.kind=fcc particles.count=108 --replicas 2",

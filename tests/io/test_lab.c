@@ -39,7 +39,7 @@ static const struct habit habits[] = {
      .count = 2,
      .pressure = {1050.5, 1100.25},
      .density = {0.412, 0.55},
-     .said = {"column 2 'Pressure (MPa)'", "decimal point", "heads in line 2",
+     .said = {"column 2 'Pressure (MPa)'", "decimal point", "headings in line 2",
               "1 row remark (line 6)", "thousands grouped"}},
     {.name = "tabs, slashes before units, French groups by no-break spaces",
      .text = "Temps / s\tPression / kPa\tDensit\xc3\xa9 relative\n"
@@ -102,7 +102,8 @@ static const struct habit habits[] = {
      .count = 3,
      .pressure = {10.5, 100.0, 200.5},
      .density = {0.4, 0.5, 0.55},
-     .said = {"between blanks", "heads in line 2 (a comment)", "1 row comment (line 5)"}},
+     .said = {"between blanks", "headings in line 2 (a comment)",
+              "1 row comment (line 5)"}},
     {.name = "samples in a column of merged cells, empty lines, separators at the end",
      .text = "Probe;p (MPa);Dichte (%);;\nA;100;45,0;;\n;200;50,5;;\n;;;;\n\n"
              "B;100;40,0;;\n;200;42,5;;\n",
@@ -415,7 +416,7 @@ static void test_refusals(void)
         {"p (MPa);d\n1,5;45 %\n2,5;46\n", NULL, ":3: column 2 'd': expected a percent"},
         {"p (MPa);d\n1,5;0,45\n2,5;46 %\n", NULL, ":3: column 2 'd': expected a percent"},
         {"p (MPa);d (g/cm3)\n1,5;45 %\n", NULL, ":2: column 2 'd (g/cm3)': expected"},
-        {"p,rho\n1,5,0,35\n2,5,0,36\n", NULL, ":2: 4 cells below 2 heads"},
+        {"p,rho\n1,5,0,35\n2,5,0,36\n", NULL, ":2: 4 cells below 2 headings"},
         {"p (MPa);d (%)\n1,5;\"45\n2,5;46\n", "separator=;", ":2: a quote is not closed"},
         {"PK\x03\x04xlsx", NULL,
          "is a workbook (.xlsx, .ods); expected its table as CSV"},

@@ -397,7 +397,7 @@ static void test_sizes(void)
 static void test_first_version(void)
 {
     char *path = write_text("# greenbody 0.1.0\n[structure]\nseed = 4357\n");
-    expect_failure(path, GB_ERR_INPUT, ":1: greenbody 0.1: expected");
+    expect_failure(path, GB_ERR_INPUT, ":1: this preset is from greenbody 0.1: expected");
     g_free(path);
     path = write_text("[structure]\ngenerator = mt19937\n");
     expect_failure(path, GB_ERR_INPUT, "generator");

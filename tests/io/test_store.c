@@ -507,7 +507,7 @@ static void test_named_process(void)
         g_assert_true(g_file_set_contents(path, text, -1, NULL));
         g_assert_true(gb_follow_request_stop(base, &err) == (works == 1));
         if (works == 0) {
-            g_assert_nonnull(strstr(err.text, "does not work there"));
+            g_assert_nonnull(strstr(err.text, "does not work in this directory"));
             g_assert_cmpint(waitpid(named, &status, WNOHANG), ==, 0);
             kill(named, SIGKILL);
         }

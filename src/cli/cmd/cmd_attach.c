@@ -79,8 +79,8 @@ static int show(const char *directory, const struct gb_settings *settings,
     if (gb_runset_view_any(directory)) {
         status = gb_watch_run(directory, settings, err);
     } else if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: no run directory: it has no preset.ini",
-                     directory);
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%s: is not a run directory: it has no preset.ini", directory);
     } else if (gb_preset_load(&preset, path, err)) {
         status = gb_app_run(preset, NULL, directory, settings, err);
     }

@@ -125,18 +125,18 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
 static const char usage[] = "PRESET [group.key=value]...";
 static const char summary[] =
     "Fits parameters of a preset to measured densities, pressure ratios, coordination\n"
-    "and moduli of unloading.  Cells of the same seeds are\n"
-    "simulated at a design of values; a surrogate of each seed gives the best fit, its\n"
-    "95 % intervals (errors of the data and scatter of the cells) and correlations.\n"
+    "and moduli of unloading.  Cells with the same seeds are simulated at a set of\n"
+    "parameter values.  A quadratic function fitted for each seed gives the best fit,\n"
+    "its 95 % intervals (errors of the data and scatter of the cells) and correlations.\n"
     "Small cells come first, the full ones last.";
 static const char about_file[] =
     "FILE.csv has the columns p_MPa and density, and may have density_error, branch\n"
     "(load, or unload: the density left after unloading from p_MPa) and keys with\n"
-    "their unit, as particles.diameter_nm, where several powders are fitted together.\n"
+    "their unit, such as particles.diameter_nm, to fit several powders together.\n"
     "Instead of density, or together with it: lateral_ratio (px/pz), coordination and\n"
-    "unloading_modulus_GPa (secant from p to p/2); several quantities need their\n"
-    "errors, lateral_ratio_error ...; weight counts a row more or less than its error.\n"
-    "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv\n"
+    "unloading_modulus_GPa (secant from p to p/2).  With several quantities, give their\n"
+    "errors (lateral_ratio_error and so on).  The column weight makes a row count more or\n"
+    "less.  The same command again continues an interrupted fit.  DIR receives rounds.csv\n"
     "during the fit, then calibration.csv, calibration.txt (the text printed), fit.csv,\n"
     "calibrated.ini and the runs.\n\n";
 static const char example[] =
@@ -155,10 +155,9 @@ int gb_cmd_calibrate(int argc, char **argv)
         {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data, "measured values",
          "FILE.csv"},
         {"free", 0, 0, G_OPTION_ARG_STRING, &request.free,
-         "up to 4 parameters to be fitted, each with its limits LOW:HIGH or without",
-         "KEY[=LOW:HIGH],..."},
+         "up to 4 parameters to fit; limits LOW:HIGH are optional", "KEY[=LOW:HIGH],..."},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
-         "cells for each set of values, 3 or more (4)", "N"},
+         "cells for each set of values, 3 or more (default: 4)", "N"},
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &request.out, "directory of the results",
          "DIR"},
         {"jobs", 'j', 0, G_OPTION_ARG_INT, &request.jobs,

@@ -128,10 +128,9 @@ static bool perform(const struct request *request, char **words, const char *com
 static const struct gb_options_page page = {
     "PRESET --out DIR [group.key=value]...",
     "A Drucker-Prager cap card of the powder for finite elements.  Cells that differ by\n"
-    "their seed are pressed, probed on copies in directions of the (p, q)\n"
-    "plane at several densities, and the surface is fitted at each.  The card is compared "
-    "with\n"
-    "uniaxial and isotropic pressing.",
+    "their seed are pressed.  At several densities, copies are probed in directions of\n"
+    "the (p, q) plane, and a yield surface is fitted.  The card is compared with uniaxial\n"
+    "and isotropic pressing.",
     "DIR receives card.csv (d, beta, R, p_a, p_b, plastic volumetric strain, E, nu "
     "against\n"
     "density with 95 % intervals), card.inp (*ELASTIC, *CAP PLASTICITY and *CAP "
@@ -157,22 +156,24 @@ int gb_cmd_card(int argc, char **argv)
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &request.out, "directory of the card",
          "DIR"},
         {"densities", 0, 0, G_OPTION_ARG_STRING, &request.densities,
-         "relative densities of the compacts (6, evenly spaced up to --pressure)",
+         "relative densities of the compacts (default: 6, evenly up to that at --pressure)",
          "A,B,..."},
         {"pressure", 0, 0, G_OPTION_ARG_DOUBLE, &request.pressure_mpa,
-         "mean pressure of the densest compact, MPa (half of loading.until)", "MPA"},
+         "mean pressure of the densest compact, MPa (default: half of loading.until)",
+         "MPA"},
         {"compacts", 0, 0, G_OPTION_ARG_STRING, &request.compacts,
-         "of the compacts: uniaxial, as in a die, or isotropic (uniaxial)", "PATH"},
-        {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas, "cells, 3 or more (8)",
-         "N"},
+         "how compacts are pressed: uniaxial (default), as in a die, or isotropic",
+         "PATH"},
+        {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
+         "cells, 3 or more (default: 8)", "N"},
         {"directions", 0, 0, G_OPTION_ARG_INT, &request.directions,
-         "probes of each compact (19)", "N"},
+         "probes of each compact (default: 19)", "N"},
         {"offset", 0, 0, G_OPTION_ARG_DOUBLE, &request.offset_percent,
-         "plastic strain at yield, % (1)", "PERCENT"},
+         "plastic strain at yield, % (default: 1)", "PERCENT"},
         {"transition", 0, 0, G_OPTION_ARG_DOUBLE, &request.transition,
-         "a of the transition surface, 0.01 to 0.05 (0.03)", "A"},
+         "parameter a of the transition surface, 0.01 to 0.05 (default: 0.03)", "A"},
         {"flow", 0, 0, G_OPTION_ARG_DOUBLE, &request.flow,
-         "weight of directions of flow over the weight of positions (1)",
+         "weight of the flow directions relative to the positions (default: 1)",
          "WEIGHT"},
         {"jobs", 'j', 0, G_OPTION_ARG_INT, &request.jobs,
          "cells at once (one per processor)", "N"},

@@ -293,8 +293,8 @@ static bool write_preset(const struct chart *chart, const struct gb_chart_row *c
     if (!chosen) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "--write %.300s: no setting is known to have a smaller error; "
-            "nothing is written",
+            "--write %.300s: no setting has an error below the limit (--allow, "
+            "or the scatter between cells); nothing is written",
             chart->write);
     }
     if (!gb_preset_load(&preset, gb_preset_path(chart->preset), err)) {

@@ -50,7 +50,7 @@ static bool check_target(const char *path, gboolean force, struct gb_error *err)
         return true;
     }
     if (!force && g_file_test(path, G_FILE_TEST_EXISTS)) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; expected with --force",
+        return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; --force replaces it",
                             path);
     }
     return gb_rundir_files_protect(path, err) && gb_file_check_target(path, err);
@@ -186,7 +186,7 @@ static bool perform(const struct request *request, char **words, struct gb_error
     if (request->contacts != NULL &&
         gb_file_is_same(request->contacts, request->output)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--contacts %.300s: expected another name than -o has",
+                            "--contacts %.300s: expected a name that differs from -o",
                             request->contacts);
     }
     job.density_kg_m3 = solid_density(job.source);
@@ -209,16 +209,15 @@ static char *describe(void)
         g_string_append_printf(text, "  %-13s %s\n", format->name, format->doc);
     }
     g_string_append(
-        text,
-        "\nParticles with velocities, angular velocities, forces and "
-        "torques where the run has\nthem; contacts with forces, areas and "
-        "bridges.  Lengths in nm, velocities in m/s,\nforces in nN (pN in "
-        "dumps), stresses in MPa, positive in compression.  Contacts\nare a "
-        "dump with formats of LAMMPS, else a table.  Pairs that attract across a\n"
-        "gap follow them, with a negative overlap.\n\n"
-        "  greenbody export run --format extxyz --all -o run.xyz\n"
-        "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"
-        "    --contacts contacts.dump -o run.dump");
+        text, "\nParticles with velocities, angular velocities, forces and "
+              "torques where the run has\nthem; contacts with forces, areas and "
+              "bridges.  Lengths in nm, velocities in m/s,\nforces in nN (pN in "
+              "dumps), stresses in MPa, positive in compression.  Contacts\nare a "
+              "dump with formats of LAMMPS, else a table.  Pairs that attract across a\n"
+              "gap follow them, with a negative overlap.\n\n"
+              "  greenbody export run --format extxyz --all -o run.xyz\n"
+              "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"
+              "    --contacts contacts.dump -o run.dump");
     return g_string_free(text, FALSE);
 }
 

@@ -521,26 +521,26 @@ int gb_cmd_moduli(int argc, char **argv)
          "one header row and one row per state", NULL},
         gb_options_json(&request.json),
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
-         "states, as \"p=100 MPa; density=0.5\" (default: as in output.snapshots_at "
-         "and the last; a lattice as it was placed)",
+         "states to probe, as \"p=100 MPa; density=0.5\" (default: the points "
+         "of output.snapshots_at and the last one; of a lattice, the initial one)",
          "POINTS"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
-         "runs that differ by their seed; means with standard errors (1)", "N"},
+         "runs that differ by their seed (default: 1); means with standard errors", "N"},
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &request.out,
-         "folder of moduli.csv, for plot --figure moduli; a run directory keeps the moduli of "
-         "its own states, and only new ones are probed",
+         "folder for moduli.csv, which plot --figure moduli draws; in the directory of the "
+         "run itself, only new states are probed",
          "DIR"},
         {"no-range", 0, 0, G_OPTION_ARG_NONE, &request.quick,
-         "without the elastic range, in half the time", NULL},
+         "skip the elastic range; takes half the time", NULL},
         gb_options_quiet(&request.quiet),
         {0},
     };
     static const struct gb_options_page page = {
         "PRESET|DIR [group.key=value]...",
-        "Elastic moduli of a packing: six small strains both ways on a copy, particles\n"
-        "free to move and turn, contact histories as they are.  PRESET is run and "
-        "probed\n"
-        "on the way; DIR is a run whose kept states and last state are probed.",
+        "Elastic moduli of a packing.  A copy is strained a little in six ways, each in both\n"
+        "directions; particles move and turn freely, and contacts keep their histories.\n"
+        "PRESET is run and probed on the way; of a run DIR, the kept states and the last\n"
+        "state are probed.",
         "Lattices: greenbody moduli default structure.kind=fcc structure.overlap=0.03\n"
         "particles.count=500.  docs/mechanics.md has the definitions."};
     char **words = NULL;

@@ -150,11 +150,10 @@ static bool keep(struct gb_pack_bed *bed, const struct gb_experiment *experiment
 {
     struct gb_state *state = NULL;
     if (bed->filling->len >= GB_PACK_BED_STATES) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "--every: more than %d states of the filling; expected a longer "
-            "time",
-            GB_PACK_BED_STATES);
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--every: filling would keep more than %d states: expected a "
+                            "longer time",
+                            GB_PACK_BED_STATES);
     }
     if (!take(experiment, &state, err)) {
         return false;

@@ -204,7 +204,7 @@ static bool add_paper(struct gb_series *series, const struct request *request,
            (drawn > 0 ||
             gb_error_set(err, GB_ERR_INPUT,
                          "--paper: the papers print no number for the figure %s of these "
-                         "scenes; expected without it",
+                         "scenes; omit --paper",
                          figure->name));
 }
 

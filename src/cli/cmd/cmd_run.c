@@ -156,10 +156,10 @@ int gb_cmd_run(int argc, char **argv)
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
         "One run without a screen.  Results go to a directory, progress to stderr.",
-        "SIGINT and SIGTERM stop the run with a checkpoint: `greenbody resume DIR`\n"
+        "Ctrl-C (SIGINT) and SIGTERM stop the run with a checkpoint: `greenbody resume DIR`\n"
         "continues it, bit-identical to a run without the interruption.  When the\n"
         "terminal is closed, output.on_hangup decides whether the run continues.\n"
-        "material=NAME among the keys sets all of [material]; greenbody params\n"
+        "material=NAME among the keys sets all keys of [material]; greenbody params\n"
         "--materials lists the names."};
     struct run run = {0};
     char **sets = NULL;
@@ -176,7 +176,7 @@ int gb_cmd_run(int argc, char **argv)
          "directory of the results (default: runs/PRESET-1, -2, ...)", "DIR"},
         {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "replace an old run in DIR", NULL},
         {"from", 0, 0, G_OPTION_ARG_FILENAME, &from,
-         "repeat the run of a picture or figure", "FILE.png"},
+         "repeat the run whose preset a picture or figure contains", "FILE.png"},
         {"yes", 'y', 0, G_OPTION_ARG_NONE, &yes,
          "begin a dynamic run estimated to take more than an hour", NULL},
         gb_options_json(&json),

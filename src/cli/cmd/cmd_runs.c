@@ -133,12 +133,12 @@ int gb_cmd_runs(int argc, char **argv)
     static const struct gb_options_page page = {
         "[FOLDER]...",
         "Lists the runs below folders: live, detached and past ones, with the density and\n"
-        "pressure of their last point, size on the disk and date.  Without a folder: the runs\n"
-        "of the workbench, and of `runs` in the working folder.",
-        "live: a process computes the run; detached: one without a terminal;\n"
-        "interrupted: its process has ended before the run, and `greenbody resume`\n"
-        "continues it.  Names of the workbench's runs are below its folder; `attach NAME` takes\n"
-        "them.  --json has the directories."};
+        "pressure of their last point, size on the disk and date.  Without FOLDER, the runs\n"
+        "of the workbench and those below the folder `runs` here.",
+        "live: a process with a terminal computes the run; detached: one without a terminal\n"
+        "does; interrupted: its process ended before the run was finished, and\n"
+        "`greenbody resume` continues it.  A run of the workbench is named by its path below\n"
+        "the workbench's folder; `attach NAME` takes this name.  --json has the directories."};
     char **words = NULL;
     int status = 0;
     gboolean json = FALSE;

@@ -47,8 +47,8 @@ static bool check_request(const struct request *request, struct gb_error *err)
     }
     if ((request->tasks || request->part != NULL) && request->target != NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s with --until-se: expected all replicas; which ones are "
-                            "needed is known only while they are done",
+                            "%s: expected without --until-se, which decides during the "
+                            "sweep how many replicas it needs",
                             request->tasks ? "--tasks" : "--part");
     }
     return (request->replicas >= 1 && request->replicas <= REPLICAS_MAX) ||
@@ -115,7 +115,7 @@ static bool estimate(struct command *command, struct gb_error *err)
     if (!request->yes && !gb_cost_within_limit(wait_s)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "the sweep will take about %s: %zu runs of about %s, %zu at "
-                            "once; expected with --yes",
+                            "once; repeat with --yes to start it",
                             total, runs, each, workers);
     }
     g_snprintf(command->estimate, sizeof command->estimate,
@@ -342,12 +342,12 @@ static const struct gb_options_page page = {
     "Many runs at once: a grid of varied keys, each point with replicas that differ by\n"
     "their seed.  Every run gets a directory in DIR; DIR/sweep.csv holds means with\n"
     "standard errors, DIR/runs.csv the state of every run.",
-    "Repeated, the command does the missing and the failed runs; a larger grid or\n"
+    "The same command again does the missing and the failed runs; a larger grid or\n"
     "more replicas add to the runs that exist.  A run that fails does not stop the\n"
     "others.  Each run uses one thread unless numerics.threads is given.\n"
-    "Several such commands in one directory, on one machine or many, divide its runs;\n"
-    "the one that ends last writes the tables (docs/many-runs.md has Slurm scripts).\n\n"
-    "Size effect (P1 Figs. 5 and 6), with bridges and by friction alone:\n"
+    "Several such commands with the same DIR, on one machine or many, divide its runs;\n"
+    "the last to end writes the tables (docs/many-runs.md has Slurm scripts).\n\n"
+    "Size effect (P1 Figs. 5 and 6), with bridges, then with friction alone:\n"
     "  greenbody sweep p1-set2-9.7nm --vary 'particles.diameter=9.7;16;21;38 nm' \\\n"
     "    --replicas 10 --at '100 MPa' --out sizes\n"
     "  greenbody sweep p1-nobridge-9.7nm --vary 'particles.diameter=9.7;16;21;38 nm' \\\n"
@@ -380,10 +380,10 @@ int gb_cmd_sweep(int argc, char **argv)
          "a grid; sensitivities go to DIR/sensitivity.csv",
          "sobol:N"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
-         "runs per point, seeds counted up from structure.seed (1)", "N"},
+         "runs per point (default: 1); seeds count up from structure.seed", "N"},
         {"until-se", 0, 0, G_OPTION_ARG_STRING, &request.target,
-         "end the replicas of a point, at 4 or more, when the standard error of its "
-         "density at a pressure is this small",
+         "add replicas to a point, 4 at least, until the standard error of its density "
+         "at PRESSURE is at most SE",
          "SE@PRESSURE"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "pressures of the table, as in '50;100;200 MPa'", "PRESSURES"},
@@ -395,12 +395,12 @@ int gb_cmd_sweep(int argc, char **argv)
          "begin a sweep estimated to take more than an hour", NULL},
         {"tasks", 0, 0, G_OPTION_ARG_NONE, &request.tasks,
          "print a command for each run that is not done, for GNU parallel, HyperQueue, "
-         "Snakemake or a Slurm array; then --collect",
+         "Snakemake or a Slurm array; run --collect afterwards",
          NULL},
         {"part", 0, 0, G_OPTION_ARG_STRING, &request.part,
-         "only every N-th run, from the I-th on, without tables", "I/N"},
+         "run only every N-th run, from the I-th on; write no tables", "I/N"},
         {"collect", 0, 0, G_OPTION_ARG_NONE, &request.collect,
-         "no runs, only the tables of those that are done", NULL},
+         "start no run; write the tables from the finished ones", NULL},
         gb_options_quiet(&request.quiet),
         {0}};
     memcpy(typed, argv, (size_t)argc * sizeof *argv);

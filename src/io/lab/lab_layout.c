@@ -125,7 +125,7 @@ static enum gb_lab_outcome check_width(struct gb_lab_reading *reading)
             reading->separator != '\t') {
             return gb_lab_question_fail(
                 reading,
-                "%.200s:%d: %zu cells below %zu heads; expected one cell per head, "
+                "%.200s:%d: %zu cells below %zu headings; expected one cell per heading, "
                 "numbers with a decimal comma in quotes or between semicolons",
                 reading->path, row->line, row->count, heads);
         }

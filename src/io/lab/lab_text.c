@@ -84,7 +84,7 @@ static bool decode(struct gb_lab_text *out, const char *path, const char *bytes,
     }
     if (!good) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%.200s: its bytes are no %s: expected text as UTF-8, UTF-16 "
+                            "%.200s: is not valid %s: expected text as UTF-8, UTF-16 "
                             "or Windows-1252",
                             path, encoding != NULL ? encoding : "text");
     }

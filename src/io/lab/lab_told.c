@@ -60,7 +60,7 @@ static void add_format(const struct gb_lab_reading *reading, GString *text)
     if (reading->names != GB_LAB_NONE) {
         const struct gb_lab_grid_row *row =
             gb_lab_grid_row(&reading->grid, (size_t)reading->names);
-        g_string_append_printf(text, ", heads in line %d%s", row->line,
+        g_string_append_printf(text, ", headings in line %d%s", row->line,
                                row->comment ? " (a comment)" : "");
     }
     g_string_append(text, reading->said->str);

@@ -307,10 +307,9 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file,
     }
     const struct gb_point_column *row;
     for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
-        if (row->state != NULL &&
-            !gb_hdf_attributes_get_numbers(file, row->state, type_of(row),
-                                           (int)row->count,
-                                           (char *)&state->point + row->offset, err)) {
+        if (row->state != NULL && !gb_hdf_attributes_get_numbers(
+                                      file, row->state, type_of(row), (int)row->count,
+                                      (char *)&state->point + row->offset, err)) {
             return false;
         }
     }
@@ -327,7 +326,8 @@ static bool check_digest(const struct gb_state *state, struct gb_hdf *file,
     }
     digest(state, sum);
     return strcmp(kept, sum) == 0 ||
-           gb_error_set(err, GB_ERR_INPUT, "%s: sha256: does not fit the data: damaged",
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%s: is damaged: the checksum sha256 does not match the data",
                         path);
 }
 

@@ -291,7 +291,8 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
         gb_hdf_attributes_get_text(file, sum_name, kept, sizeof kept, NULL);
     digest(state, sum);
     if (done && (some || summed) && (!summed || strcmp(kept, sum) != 0)) {
-        done = gb_error_set(err, GB_ERR_INPUT, "%s: %s: does not fit the data: damaged",
+        done = gb_error_set(err, GB_ERR_INPUT,
+                            "%s: is damaged: the checksum %s does not match the data",
                             path, sum_name);
     }
     double second = 0.0;

@@ -100,11 +100,12 @@ static bool check_loading(const struct gb_params *params, struct gb_error *err)
         return gb_path_parse(&path, params->path, params->dimension, err);
     }
     if (!isnan(params->until_density) && !(params->until_density > start)) {
-        return gb_error_set(
-            err, GB_ERR_INPUT, "loading.until = density = %g: must be above %s %g",
-            params->until_density,
-            gb_imported_given(params) ? "the density of structure.from," : "structure.density =",
-            start);
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.until = density = %g: must be above %s %g",
+                            params->until_density,
+                            gb_imported_given(params) ? "the density of structure.from,"
+                                                      : "structure.density =",
+                            start);
     }
     if (!isnan(params->until_pressure_pa) && params->unload_count > 0) {
         char from[64], until[64];
@@ -161,8 +162,9 @@ bool gb_params_check(const struct gb_params *params, struct gb_error *err)
     }
     if (params->export_format != GB_LIVE_NONE && points.count == 0 && points.every == 0) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "output.export: writes the states that output.snapshots_at "
-                            "keeps, which is empty; expected none, or points there");
+                            "output.export: writes only states that output.snapshots_at "
+                            "keeps, which has no points; expected none, or points in "
+                            "output.snapshots_at");
     }
     const struct gb_loading_kind *kind = gb_loading_kind_of(params);
     return (!kind->periodic_cell || check_periodic(params, err)) &&

@@ -75,8 +75,8 @@ static bool read_bytes(const char *path, char *bytes, size_t length,
     if (memchr(bytes, '\0', length) != NULL ||
         !g_utf8_validate(bytes, (gssize)length, NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: no text: must be extended XYZ, a dump or data file of "
-                            "LAMMPS, VTKHDF, or a table",
+                            "%s: is not a text file: expected extended XYZ, a dump or "
+                            "data file of LAMMPS, VTKHDF, or a table",
                             path);
     }
     return read_text(path, bytes, raw, err);
@@ -208,8 +208,8 @@ double gb_imported_spacing(const struct gb_imported *packing, int k)
     const double across = yz / edges[2]; /* rows of the inverse, times their edge */
     switch (k) {
     case 0:
-        return edges[0] / hypot(hypot(1.0, xy / edges[1]),
-                                (xz - xy * yz / edges[1]) / edges[2]);
+        return edges[0] /
+               hypot(hypot(1.0, xy / edges[1]), (xz - xy * yz / edges[1]) / edges[2]);
     case 1:
         return edges[1] / hypot(1.0, across);
     default:

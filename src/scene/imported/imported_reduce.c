@@ -161,8 +161,8 @@ bool gb_imported_reduce(struct gb_imported *packing, const struct gb_imported_ra
     if (!raw->cell ||
         !(raw->edges[0] > 0.0 && raw->edges[1] > 0.0 && raw->edges[2] > 0.0)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: no periodic cell: must be given, in a table by a line "
-                            "as # cell, um: 12 12 20",
+                            "%s: has no periodic cell: expected one, in a table by a "
+                            "line such as # cell, um: 12 12 20",
                             path);
     }
     packing->count = count;

@@ -51,8 +51,8 @@ static bool check(const struct gb_imported_raw *raw, struct gb_error *err)
     }
     return good ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "Points and diameter_nm: must be as many, finite, diameters "
-                        "above 0");
+                        "Points and diameter_nm: expected as many rows in both, finite "
+                        "values, and diameters above 0");
 }
 
 bool gb_imported_vtkhdf_read(const char *path, struct gb_imported_raw *raw,

@@ -116,9 +116,10 @@ static bool set_radial(struct gb_path_reading *in, unsigned *own)
     }
     gb_path_words_quantity(&in->words, GB_DIM_NONE, &ratio);
     if (ratio == 0.0) {
-        return gb_error_set(in->err, GB_ERR_INPUT,
-                            "'radial 0': a fraction must not be 0; triaxial holds the "
-                            "others at a pressure");
+        return gb_error_set(
+            in->err, GB_ERR_INPUT,
+            "'radial 0': a fraction must not be 0; to hold the other axes "
+            "at a pressure, write triaxial");
     }
     *own = lateral(in);
     for (int k = 0; k < 3; k++) {

@@ -224,7 +224,7 @@ static bool read_value(struct gb_path_reading *in, struct gb_leg_component *cont
     }
     if (control->value == 0.0) {
         return gb_error_set(in->err, GB_ERR_INPUT,
-                            "'0': a fraction must not be 0; 0 MPa and held are values");
+                            "'0': a fraction must not be 0; write 0 MPa or held");
     }
     return gb_path_reading_component(in, &control->of);
 }

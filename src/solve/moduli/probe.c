@@ -675,10 +675,12 @@ static bool copy_world(struct gb_probe *probe, const struct gb_world *world,
         gb_world_create(&probe->world, &probe->model, gb_world_position(world), err) &&
         gb_world_copy_save(world, &start, err) &&
         balance_from(probe, start, rounded, GB_PROBE_RESIDUAL_START, err);
-    if (done && !is_stable(probe, &refused)) {
-        done = refused.code == GB_ERR_CANCELLED
-                   ? check_cancelled(probe, err)
-                   : balance_from(probe, start, rounded, GB_PROBE_RESIDUAL_STABLE, err);
+    if (done && is_stable(probe, &refused)) {
+        done = gb_world_copy_restore(probe->world, probe->base, err) &&
+               gb_world_evaluate(probe->world, err);
+    } else if (done) {
+        done = check_cancelled(probe, err) &&
+               balance_from(probe, start, rounded, GB_PROBE_RESIDUAL_STABLE, err);
     }
     if (done) {
         const struct gb_nonaffine moved = gb_nonaffine_since(probe->world, start);
