@@ -93,7 +93,7 @@ static void draw_equation(struct gb_series *series,
     double *density = gb_series_column(series, "%s_%zu", name, number);
     double *residual = gb_series_column(series, "residual_%s_%zu_percent", name, number);
     for (size_t i = 0; i < one->data.points.count; i++) {
-        density[i] = gb_equation_fit_at(fit, pressure[i]);
+        density[i] = gb_compaction_fits_at(fit, pressure[i]);
         residual[i] = percent * (one->data.points.density[i] - density[i]);
     }
     gb_series_draw(series, pressure, density, NULL, GB_FIGURE_LINE, style, label);

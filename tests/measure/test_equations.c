@@ -185,7 +185,7 @@ static void test_exact(void)
             struct gb_error err = {0};
             fill(&curve, &truths[i], 0.0, NULL);
             curve.points.initial = known ? curve.points.initial : (double)NAN;
-            if (!gb_equation_fit(&fit, equation, &curve.points, &err)) {
+            if (!gb_compaction_fits_equation_fit(&fit, equation, &curve.points, &err)) {
                 g_error("%s", err.text);
             }
             for (size_t k = 0; k < fit.size; k++) {
@@ -430,8 +430,8 @@ static void test_profile(void)
     gsl_rng_set(random, seeds);
     fill(&curve, &truths[8], 5.0 * noise, random);
     curve.points.count = 14; /* far below r_inf: its upper end is far away */
-    g_assert_true(
-        gb_equation_fit(&linear, gb_equations_find("secondi"), &curve.points, &err));
+    g_assert_true(gb_compaction_fits_equation_fit(&linear, gb_equations_find("secondi"),
+                                                  &curve.points, &err));
     const struct gb_equation_fit profile = fits_of(&curve, "secondi").fit[0].all;
     const double below = log(profile.value[0].value / profile.value[0].low);
     const double above = log(profile.value[0].high / profile.value[0].value);

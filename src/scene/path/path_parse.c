@@ -1,8 +1,400 @@
 #include <glib.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-#include "scene/path/path_reading.h"
+#include "base/units.h"
+#include "greenbody/dimension.h"
+#include "greenbody/status.h"
+#include "scene/path/path.h"
+
+/* Reads the legs of a loading path.  A line becomes words; the functions read_... take
+ * them from the left and fill the leg; a table of shorthands names the kinds of legs. */
+
+/* The words of one leg: "shear", "xz", "to", "20", "%", "at", "z", "=", "50", "MPa". */
+enum { WORDS_MAX = 48 };
+
+struct path_words {
+    int count, next;
+    char *word[WORDS_MAX]; /* into the text of `storage` */
+    char *storage;
+};
+
+/* A leg that is being read.  The functions take words and fill the leg; on error they fill
+ * err with the word and what is accepted there. */
+struct path_reading {
+    struct path_words words;
+    struct gb_leg *leg;
+    const struct gb_path *before; /* the legs in front of it */
+    int dimension;
+    unsigned given; /* bits of the components that the leg has named */
+    struct gb_error *err;
+};
+
+static bool stands_alone(char c)
+{
+    return c == '=' || c == ',';
+}
+
+/* Copies text with blanks around '=' and ',' and before '%'. */
+static char *spread(const char *text)
+{
+    GString *out = g_string_new(NULL);
+    for (const char *c = text; *c != '\0'; c++) {
+        if (stands_alone(*c)) {
+            g_string_append_printf(out, " %c ", *c);
+        } else if (*c == '%') {
+            g_string_append(out, " %");
+        } else {
+            g_string_append_c(out, *c);
+        }
+    }
+    return g_string_free(out, FALSE);
+}
+
+/* Errors: GB_ERR_INPUT where a leg has too many words. */
+static bool split_words(struct path_words *words, const char *text, struct gb_error *err)
+{
+    *words = (struct path_words){.storage = spread(text)};
+    char *rest = words->storage;
+    for (;;) {
+        rest += strspn(rest, " \t");
+        if (*rest == '\0') {
+            return true;
+        }
+        if (words->count == WORDS_MAX) {
+            return gb_error_set(err, GB_ERR_INPUT, "must be at most %d words", WORDS_MAX);
+        }
+        words->word[words->count++] = rest;
+        rest += strcspn(rest, " \t");
+        if (*rest != '\0') {
+            *rest++ = '\0';
+        }
+    }
+}
+
+static void free_words(struct path_words *words)
+{
+    g_free(words->storage);
+    words->storage = NULL;
+}
+
+/* The next word, "" behind the last one. */
+static const char *peek_word(const struct path_words *words)
+{
+    return words->next < words->count ? words->word[words->next] : "";
+}
+
+/* Takes the next word if it is this one. */
+static bool accept_word(struct path_words *words, const char *word)
+{
+    const bool same = strcmp(peek_word(words), word) == 0;
+    words->next += same;
+    return same;
+}
+
+/* Takes a number with its unit, "50 MPa", "20 %", "0.2".  False: the next words are none;
+ * nothing is taken then. */
+static bool take_quantity(struct path_words *words, enum gb_dimension dimension,
+                          double *value)
+{
+    const int left = words->count - words->next;
+    for (int used = left < 2 ? left : 2; used >= 1; used--) {
+        char *text = used == 2 ? g_strjoin(" ", words->word[words->next],
+                                           words->word[words->next + 1], NULL)
+                               : g_strdup(words->word[words->next]);
+        const bool good = gb_units_parse(text, dimension, value, NULL);
+        g_free(text);
+        if (good) {
+            words->next += used;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Takes the name of a component; -1: the next word is none. */
+static int take_component(struct path_words *words)
+{
+    const char *word = peek_word(words);
+    const int component = gb_path_component_find(word, strlen(word));
+    words->next += component >= 0;
+    return component;
+}
+
+static bool is_number(const char *word)
+{
+    const char *end = word;
+    double value = 0.0;
+    return gb_units_number(word, &end, &value) && end != word && *end == '\0';
+}
+
+/* A unit of any dimension, or one that looks like a pressure. */
+static bool is_unit(const char *word)
+{
+    char *one = g_strdup_printf("1 %s", word);
+    double value = 0.0;
+    bool found = g_ascii_isalpha(word[0]) && g_str_has_suffix(word, "Pa");
+    for (int k = GB_DIM_FRACTION; !found && word[0] != '\0' && k <= GB_DIM_COMPLIANCE;
+         k++) {
+        found = gb_units_parse(one, (enum gb_dimension)k, &value, NULL);
+    }
+    g_free(one);
+    return found;
+}
+
+/* Always false. */
+static bool expected(struct path_reading *in, const char *what)
+{
+    const char *word = peek_word(&in->words);
+    if (in->words.next > 0 && is_number(in->words.word[in->words.next - 1]) &&
+        is_unit(word)) {
+        return gb_error_set(in->err, GB_ERR_INPUT,
+                            "'%.24s %.24s': its unit must be one of %s for a "
+                            "pressure, %% for a strain, none for a density or a ratio",
+                            in->words.word[in->words.next - 1], word,
+                            gb_units_accepted(GB_DIM_PRESSURE));
+    }
+    return word[0] != '\0'
+               ? gb_error_set(in->err, GB_ERR_INPUT, "'%.24s': must be %s", word, what)
+               : gb_error_set(in->err, GB_ERR_INPUT,
+                              "ends too early: must continue with %s", what);
+}
+
+/* A component that exists in this scene. */
+static bool read_component(struct path_reading *in, int *component)
+{
+    const int next = in->words.next;
+    *component = take_component(&in->words);
+    if (*component >= 0 && gb_path_has_component(in->dimension, *component)) {
+        return true;
+    }
+    in->words.next = next;
+    return expected(in, in->dimension == 3 ? "x, y, z, xy, xz or yz"
+                                           : "x, z or xz with scene.dimension = 2");
+}
+
+/* Marks a component as named.  Errors: named before. */
+static bool mark_given(struct path_reading *in, int component)
+{
+    if ((in->given >> component & 1u) != 0) {
+        return gb_error_set(in->err, GB_ERR_INPUT, "'%s': must be given once in a leg",
+                            gb_path_component_name(component));
+    }
+    in->given |= 1u << component;
+    return true;
+}
+
+static bool read_pressure(struct path_reading *in, double *value)
+{
+    accept_word(&in->words, "=");
+    return take_quantity(&in->words, GB_DIM_PRESSURE, value) ||
+           expected(in, "a pressure with its unit, as in 50 MPa");
+}
+
+/* "0.5" or "= 0.5" */
+static bool read_number(struct path_reading *in, double *value)
+{
+    accept_word(&in->words, "=");
+    return take_quantity(&in->words, GB_DIM_NONE, value) || expected(in, "a number");
+}
+
+static bool read_density_end(struct path_reading *in, struct gb_leg_end *end)
+{
+    end->kind = GB_LEG_END_DENSITY;
+    return read_number(in, &end->value) &&
+           ((end->value > 0.0 && end->value < 1.0) ||
+            gb_error_set(in->err, GB_ERR_INPUT, "density %g: must be between 0 and 1",
+                         end->value));
+}
+
+static bool read_stress_end(struct path_reading *in, int component,
+                            struct gb_leg_end *end)
+{
+    end->kind = GB_LEG_END_STRESS;
+    end->of = component;
+    return gb_path_has_component(in->dimension, component)
+               ? read_pressure(in, &end->value)
+               : gb_error_set(in->err, GB_ERR_INPUT,
+                              "%s: must be x, z or xz with scene.dimension = 2",
+                              gb_path_component_name(component));
+}
+
+/* "50 MPa" is the pressure that the leg raises, the shear stress of a shear; "20 %" its
+ * strain. */
+static bool read_own_end(struct path_reading *in, struct gb_leg_end *end)
+{
+    if (take_quantity(&in->words, GB_DIM_PRESSURE, &end->value)) {
+        const int leading = in->leg->leading;
+        end->kind = leading >= 3 ? GB_LEG_END_STRESS : GB_LEG_END_PRESSURE;
+        end->of = leading;
+        return true;
+    }
+    end->kind = GB_LEG_END_STRAIN;
+    return take_quantity(&in->words, GB_DIM_FRACTION, &end->value) ||
+           expected(in, "an end: a pressure (50 MPa, z = 50 MPa), a strain (20 %), "
+                        "density 0.5, p, q or q/p");
+}
+
+static bool read_one_end(struct path_reading *in, struct gb_leg_end *end)
+{
+    struct path_words *words = &in->words;
+    *end = (struct gb_leg_end){.of = in->leg->leading};
+    if (accept_word(words, "density")) {
+        return read_density_end(in, end);
+    }
+    if (accept_word(words, "q/p")) {
+        end->kind = GB_LEG_END_RATIO;
+        return read_number(in, &end->value);
+    }
+    if (accept_word(words, "q")) {
+        end->kind = GB_LEG_END_Q;
+        return read_pressure(in, &end->value);
+    }
+    if (accept_word(words, "p")) {
+        end->kind = GB_LEG_END_MEAN;
+        return read_pressure(in, &end->value);
+    }
+    const int component = take_component(words);
+    return component >= 0 ? read_stress_end(in, component, end) : read_own_end(in, end);
+}
+
+/* "to 50 MPa", "to q/p = 0.8 or 20 %" */
+static bool read_ends(struct path_reading *in)
+{
+    struct gb_leg *leg = in->leg;
+    if (!accept_word(&in->words, "to")) {
+        return expected(in, "'to' and an end, as in to 50 MPa or to 20 %");
+    }
+    do {
+        if (leg->end_count == GB_PATH_ENDS_MAX) {
+            return gb_error_set(in->err, GB_ERR_INPUT, "must have at most %d ends",
+                                GB_PATH_ENDS_MAX);
+        }
+        if (!read_one_end(in, &leg->end[leg->end_count++])) {
+            return false;
+        }
+    } while (accept_word(&in->words, "or"));
+    return true;
+}
+
+/* "between -1 % and 1 %" of a cycle */
+static bool read_reversals(struct path_reading *in)
+{
+    struct gb_leg *leg = in->leg;
+    leg->end_count = 2;
+    if (!accept_word(&in->words, "between")) {
+        return expected(in, "'between', as in between 20 MPa and 100 MPa");
+    }
+    if (!read_one_end(in, &leg->end[0])) {
+        return false;
+    }
+    if (!accept_word(&in->words, "and")) {
+        return expected(in, "'and' and the other end");
+    }
+    if (!read_one_end(in, &leg->end[1])) {
+        return false;
+    }
+    return (leg->end[0].kind == leg->end[1].kind && leg->end[0].of == leg->end[1].of &&
+            leg->end[0].value != leg->end[1].value) ||
+           gb_error_set(in->err, GB_ERR_INPUT,
+                        "between: must be two different values of one quantity");
+}
+
+/* "x = y =" or "x = y by": bits of the components; false: neither follows them. */
+static bool read_members(struct path_reading *in, unsigned *members)
+{
+    for (int next = take_component(&in->words); next >= 0;
+         next = take_component(&in->words)) {
+        if (!mark_given(in, next)) {
+            return false;
+        }
+        *members |= 1u << next;
+        if (strcmp(peek_word(&in->words), "by") == 0) {
+            return true;
+        }
+        if (!accept_word(&in->words, "=")) {
+            return expected(in, "'=' or 'by'");
+        }
+    }
+    return true;
+}
+
+/* "50 MPa", "0.5 z", "held", "by 0.5 z" */
+static bool read_value(struct path_reading *in, struct gb_leg_component *control)
+{
+    const bool by = accept_word(&in->words, "by");
+    if (!by && (accept_word(&in->words, "held") ||
+                take_quantity(&in->words, GB_DIM_PRESSURE, &control->value))) {
+        return true;
+    }
+    control->control = by ? GB_LEG_FOLLOW : GB_LEG_RATIO;
+    if (!take_quantity(&in->words, GB_DIM_NONE, &control->value)) {
+        return expected(
+            in, by ? "a fraction of the change of another component, as in by 0.5 z"
+                   : "a pressure (50 MPa), a fraction of another component (0.5 z) or "
+                     "'held'");
+    }
+    if (control->value == 0.0) {
+        return gb_error_set(in->err, GB_ERR_INPUT,
+                            "'0': a fraction must not be 0; write 0 MPa or held");
+    }
+    return read_component(in, &control->of);
+}
+
+static bool set_control(struct path_reading *in, int k,
+                        const struct gb_leg_component *control)
+{
+    const char *why = k == in->leg->leading ? "it leads the leg"
+                      : k == control->of    ? "it would be a fraction of itself"
+                      : gb_path_has_component(in->dimension, k)
+                          ? NULL
+                          : "scene.dimension = 2 has x, z and xz";
+    if (why != NULL) {
+        return gb_error_set(in->err, GB_ERR_INPUT, "%s: cannot be held here: %s",
+                            gb_path_component_name(k), why);
+    }
+    in->leg->component[k] = *control;
+    return true;
+}
+
+/* "x = y = z = 50 MPa", "x = y = 0.5 z", "z = held", "x = y by -0.5 z"; components may be
+ * left out where the leg has its own (triaxial, hold): "50 MPa". */
+static bool read_control(struct path_reading *in, unsigned own)
+{
+    struct gb_leg_component control = {GB_LEG_STRESS, (double)NAN, -1};
+    unsigned members = 0;
+    if (!read_members(in, &members)) {
+        return false;
+    }
+    members = members != 0 ? members : own;
+    if (members == 0) {
+        return expected(in, "a component to hold, as in z = 50 MPa");
+    }
+    bool good = read_value(in, &control);
+    for (int k = 0; k < GB_PATH_COMPONENTS && good; k++) {
+        good = (members >> k & 1u) == 0 || set_control(in, k, &control);
+    }
+    return good;
+}
+
+/* "z = 50 MPa, x = y = 0.5 z"; own: bits of the components that are meant where none is
+ * named. */
+static bool read_controls(struct path_reading *in, unsigned own)
+{
+    do {
+        if (!read_control(in, own)) {
+            return false;
+        }
+    } while (accept_word(&in->words, ",") || accept_word(&in->words, "and"));
+    return true;
+}
+
+/* "at z = 50 MPa", or nothing */
+static bool read_at(struct path_reading *in, unsigned own)
+{
+    return !accept_word(&in->words, "at") || read_controls(in, own);
+}
 
 static void lead(struct gb_leg *leg, int component)
 {
@@ -18,7 +410,7 @@ static void hold(struct gb_leg *leg, int component, double stress)
 
 /* What moves, and what is held unless `at` says otherwise. */
 
-static unsigned lateral(const struct gb_path_reading *in)
+static unsigned lateral(const struct path_reading *in)
 {
     unsigned members = 0;
     for (int k = 0; k < 3; k++) {
@@ -28,7 +420,7 @@ static unsigned lateral(const struct gb_path_reading *in)
     return members;
 }
 
-static void hold_members(struct gb_path_reading *in, unsigned members, double stress)
+static void hold_members(struct path_reading *in, unsigned members, double stress)
 {
     for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
         if ((members >> k & 1u) != 0) {
@@ -38,26 +430,26 @@ static void hold_members(struct gb_path_reading *in, unsigned members, double st
 }
 
 /* An axis, z when none is named. */
-static bool read_axis(struct gb_path_reading *in)
+static bool read_axis(struct path_reading *in)
 {
     const int next = in->words.next;
-    const int axis = gb_path_words_component(&in->words);
+    const int axis = take_component(&in->words);
     if (axis >= 0 && (axis > 2 || !gb_path_has_component(in->dimension, axis))) {
         in->words.next = next;
-        return gb_path_reading_expected(in, in->dimension == 3 ? "x, y or z" : "x or z");
+        return expected(in, in->dimension == 3 ? "x, y or z" : "x or z");
     }
     lead(in->leg, axis >= 0 ? axis : 2);
-    in->leg->extension = gb_path_words_accept(&in->words, "extension");
+    in->leg->extension = accept_word(&in->words, "extension");
     return true;
 }
 
-static bool set_uniaxial(struct gb_path_reading *in, unsigned *own)
+static bool set_uniaxial(struct path_reading *in, unsigned *own)
 {
     (void)own;
     return read_axis(in);
 }
 
-static bool set_biaxial(struct gb_path_reading *in, unsigned *own)
+static bool set_biaxial(struct path_reading *in, unsigned *own)
 {
     (void)own;
     if (in->dimension == 2) {
@@ -67,11 +459,11 @@ static bool set_biaxial(struct gb_path_reading *in, unsigned *own)
     }
     lead(in->leg, 1);
     lead(in->leg, 2);
-    in->leg->extension = gb_path_words_accept(&in->words, "extension");
+    in->leg->extension = accept_word(&in->words, "extension");
     return true;
 }
 
-static bool set_isotropic(struct gb_path_reading *in, unsigned *own)
+static bool set_isotropic(struct path_reading *in, unsigned *own)
 {
     (void)own;
     for (int k = 0; k < 3; k++) {
@@ -79,11 +471,11 @@ static bool set_isotropic(struct gb_path_reading *in, unsigned *own)
             lead(in->leg, k);
         }
     }
-    in->leg->extension = gb_path_words_accept(&in->words, "extension");
+    in->leg->extension = accept_word(&in->words, "extension");
     return true;
 }
 
-static bool set_triaxial(struct gb_path_reading *in, unsigned *own)
+static bool set_triaxial(struct path_reading *in, unsigned *own)
 {
     if (!read_axis(in)) {
         return false;
@@ -93,28 +485,28 @@ static bool set_triaxial(struct gb_path_reading *in, unsigned *own)
     return true;
 }
 
-static bool set_shear(struct gb_path_reading *in, unsigned *own)
+static bool set_shear(struct path_reading *in, unsigned *own)
 {
     int component = -1;
     (void)own;
-    if (!gb_path_reading_component(in, &component)) {
+    if (!read_component(in, &component)) {
         return false;
     }
     if (component < 3) {
         in->words.next--; /* the message names it */
-        return gb_path_reading_expected(in, in->dimension == 3 ? "xy, xz or yz" : "xz");
+        return expected(in, in->dimension == 3 ? "xy, xz or yz" : "xz");
     }
     lead(in->leg, component);
     return true;
 }
 
-static bool set_radial(struct gb_path_reading *in, unsigned *own)
+static bool set_radial(struct path_reading *in, unsigned *own)
 {
     double ratio = (double)NAN;
     if (!read_axis(in)) {
         return false;
     }
-    gb_path_words_quantity(&in->words, GB_DIM_NONE, &ratio);
+    take_quantity(&in->words, GB_DIM_NONE, &ratio);
     if (ratio == 0.0) {
         return gb_error_set(
             in->err, GB_ERR_INPUT,
@@ -132,15 +524,14 @@ static bool set_radial(struct gb_path_reading *in, unsigned *own)
 }
 
 /* "strain z = 1, x = -0.5 to 5 %": the first component leads. */
-static bool set_strain(struct gb_path_reading *in, unsigned *own)
+static bool set_strain(struct path_reading *in, unsigned *own)
 {
     (void)own;
     do {
         struct gb_leg_component control = {GB_LEG_STRAIN, 1.0, -1};
         int component = -1;
-        if (!gb_path_reading_component(in, &component) ||
-            !gb_path_reading_give(in, component) ||
-            !gb_path_reading_number(in, &control.value)) {
+        if (!read_component(in, &component) || !mark_given(in, component) ||
+            !read_number(in, &control.value)) {
             return false;
         }
         if (in->leg->leading < 0 && control.value == 0.0) {
@@ -149,7 +540,7 @@ static bool set_strain(struct gb_path_reading *in, unsigned *own)
         }
         in->leg->leading = in->leg->leading < 0 ? component : in->leg->leading;
         in->leg->component[component] = control;
-    } while (gb_path_words_accept(&in->words, ","));
+    } while (accept_word(&in->words, ","));
     const double scale = in->leg->component[in->leg->leading].value;
     for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
         in->leg->component[k].value /= scale;
@@ -196,7 +587,7 @@ static void reverse(struct gb_leg *leg, const struct gb_leg *last, int leading)
     lead(leg, leading);
 }
 
-static bool set_unload(struct gb_path_reading *in, unsigned *own)
+static bool set_unload(struct path_reading *in, unsigned *own)
 {
     (void)own;
     for (int l = in->before->count - 1; l >= 0; l--) {
@@ -211,7 +602,7 @@ static bool set_unload(struct gb_path_reading *in, unsigned *own)
                         "unload: must follow a leg that moves or holds an axis");
 }
 
-static bool set_hold(struct gb_path_reading *in, unsigned *own)
+static bool set_hold(struct path_reading *in, unsigned *own)
 {
     for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
         const bool there = k < 3 && gb_path_has_component(in->dimension, k);
@@ -221,13 +612,13 @@ static bool set_hold(struct gb_path_reading *in, unsigned *own)
     return true;
 }
 
-static bool end_steps(struct gb_path_reading *in)
+static bool end_steps(struct path_reading *in)
 {
     struct gb_leg *leg = in->leg;
     double times = 1.0;
-    if (gb_path_words_quantity(&in->words, GB_DIM_NONE, &times) &&
-        !gb_path_words_accept(&in->words, "times")) {
-        return gb_path_reading_expected(in, "'times', as in hold 5 times");
+    if (take_quantity(&in->words, GB_DIM_NONE, &times) &&
+        !accept_word(&in->words, "times")) {
+        return expected(in, "'times', as in hold 5 times");
     }
     leg->end[0] = (struct gb_leg_end){GB_LEG_END_STEPS, times, -1};
     leg->end_count = 1;
@@ -236,10 +627,10 @@ static bool end_steps(struct gb_path_reading *in)
                         "%g times: must be a whole number from 1 to 1000000", times);
 }
 
-static bool end_unload(struct gb_path_reading *in)
+static bool end_unload(struct path_reading *in)
 {
-    if (strcmp(gb_path_words_peek(&in->words), "to") == 0) {
-        return gb_path_reading_ends(in);
+    if (strcmp(peek_word(&in->words), "to") == 0) {
+        return read_ends(in);
     }
     in->leg->end[0] = (struct gb_leg_end){GB_LEG_END_PRESSURE, 0.0, in->leg->leading};
     in->leg->end_count = 1;
@@ -249,27 +640,26 @@ static bool end_unload(struct gb_path_reading *in)
 /* THE table of shorthands. */
 static const struct shorthand {
     const char *word, *usage, *doc;
-    bool (*set)(struct gb_path_reading *in, unsigned *own);
-    bool (*end)(struct gb_path_reading *in);
+    bool (*set)(struct path_reading *in, unsigned *own);
+    bool (*end)(struct path_reading *in);
 } table[] = {
     {"uniaxial", "uniaxial [x|y|z] to END", "one axis is strained, the others are fixed",
-     set_uniaxial, gb_path_reading_ends},
+     set_uniaxial, read_ends},
     {"biaxial", "biaxial to END", "y and z are strained alike, x is fixed", set_biaxial,
-     gb_path_reading_ends},
+     read_ends},
     {"isotropic", "isotropic to END", "all axes are strained alike", set_isotropic,
-     gb_path_reading_ends},
+     read_ends},
     {"triaxial", "triaxial [x|y|z] [extension] to END [at STRESS]",
      "one axis is strained, the stresses of the other two are held", set_triaxial,
-     gb_path_reading_ends},
+     read_ends},
     {"shear", "shear xy|xz|yz to END [at HELD]",
-     "simple shear at constant volume, or at held stresses", set_shear,
-     gb_path_reading_ends},
+     "simple shear at constant volume, or at held stresses", set_shear, read_ends},
     {"radial", "radial [RATIO] to END",
      "one axis is strained, the stresses of the others are a fraction of its own",
-     set_radial, gb_path_reading_ends},
+     set_radial, read_ends},
     {"strain", "strain z = 1, x = -0.5, ... to END [at HELD]",
      "any strains in proportion; the first leads, those not named are fixed", set_strain,
-     gb_path_reading_ends},
+     read_ends},
     {"hold", "hold [HELD] [N times]", "stresses stay while the packing relaxes", set_hold,
      end_steps},
     {"unload", "unload [to END]",
@@ -293,37 +683,35 @@ bool gb_path_parse_shorthand(int index, const char **usage, const char **doc)
     return true;
 }
 
-static const struct shorthand *find_shorthand(struct gb_path_reading *in)
+static const struct shorthand *find_shorthand(struct path_reading *in)
 {
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
-        if (gb_path_words_accept(&in->words, table[i].word)) {
+        if (accept_word(&in->words, table[i].word)) {
             return &table[i];
         }
     }
-    gb_path_reading_expected(
-        in, "uniaxial, biaxial, isotropic, triaxial, shear, radial, strain, hold, "
-            "unload or cycle");
+    expected(in, "uniaxial, biaxial, isotropic, triaxial, shear, radial, strain, hold, "
+                 "unload or cycle");
     return NULL;
 }
 
-static bool read_cycles(struct gb_path_reading *in)
+static bool read_cycles(struct path_reading *in)
 {
     double times = 0.0;
-    if (!gb_path_words_quantity(&in->words, GB_DIM_NONE, &times) ||
-        !gb_path_words_accept(&in->words, "times") || !(times >= 1.0 && times <= 1e6) ||
+    if (!take_quantity(&in->words, GB_DIM_NONE, &times) ||
+        !accept_word(&in->words, "times") || !(times >= 1.0 && times <= 1e6) ||
         floor(times) != times) {
-        return gb_path_reading_expected(
-            in, "a whole number and 'times', as in cycle 5 times");
+        return expected(in, "a whole number and 'times', as in cycle 5 times");
     }
     in->leg->cycles = (int)times;
     return true;
 }
 
-static bool read_leg(struct gb_path_reading *in)
+static bool read_leg(struct path_reading *in)
 {
     struct gb_leg *leg = in->leg;
     unsigned own = 0;
-    const bool cycle = gb_path_words_accept(&in->words, "cycle");
+    const bool cycle = accept_word(&in->words, "cycle");
     if (cycle && !read_cycles(in)) {
         return false;
     }
@@ -335,23 +723,23 @@ static bool read_leg(struct gb_path_reading *in)
         return gb_error_set(in->err, GB_ERR_INPUT, "cycle: must be of a leg that moves");
     }
     const bool holds = shorthand->end == end_steps; /* what is held stands before */
-    const bool named = gb_path_words_accept(&in->words, "at") ||
-                       (holds && (gb_path_words_peek(&in->words)[0] != '\0' &&
-                                  !g_ascii_isdigit(gb_path_words_peek(&in->words)[0])));
-    if (named && !gb_path_reading_controls(in, own)) {
+    const bool named = accept_word(&in->words, "at") ||
+                       (holds && (peek_word(&in->words)[0] != '\0' &&
+                                  !g_ascii_isdigit(peek_word(&in->words)[0])));
+    if (named && !read_controls(in, own)) {
         return false;
     }
-    if (!(cycle ? gb_path_reading_reversals(in) : shorthand->end(in))) {
+    if (!(cycle ? read_reversals(in) : shorthand->end(in))) {
         return false;
     }
-    if (named && strcmp(gb_path_words_peek(&in->words), "at") == 0) {
+    if (named && strcmp(peek_word(&in->words), "at") == 0) {
         return gb_error_set(in->err, GB_ERR_INPUT, "'at': must be given once in a leg");
     }
-    if (!gb_path_reading_at(in, own)) {
+    if (!read_at(in, own)) {
         return false;
     }
-    return gb_path_words_peek(&in->words)[0] == '\0' ||
-           gb_path_reading_expected(in, "the end of the leg; legs are separated by ';'");
+    return peek_word(&in->words)[0] == '\0' ||
+           expected(in, "the end of the leg; legs are separated by ';'");
 }
 
 /* Everything is fixed but what the leg says. */
@@ -367,15 +755,15 @@ static void init_leg(struct gb_leg *leg, const char *text)
 bool gb_path_parse_leg(struct gb_path *path, const char *text, int dimension,
                        struct gb_error *err)
 {
-    struct gb_path_reading in = {.before = path, .dimension = dimension, .err = err};
+    struct path_reading in = {.before = path, .dimension = dimension, .err = err};
     if (path->count == GB_PATH_LEGS_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "must be at most %d legs",
                             GB_PATH_LEGS_MAX);
     }
     in.leg = &path->leg[path->count];
     init_leg(in.leg, text);
-    const bool good = gb_path_words_init(&in.words, text, err) && read_leg(&in);
-    gb_path_words_finish(&in.words);
+    const bool good = split_words(&in.words, text, err) && read_leg(&in);
+    free_words(&in.words);
     path->count += good;
     return good;
 }

@@ -133,7 +133,7 @@ static size_t take_fit(struct view *view, const struct line *line)
     for (int k = 0; k < SAMPLES; k++) {
         const double p =
             line->from * pow(line->to / line->from, (double)k / (SAMPLES - 1));
-        panel->x[k] = gb_equation_fit_at(line->fit, p);
+        panel->x[k] = gb_compaction_fits_at(line->fit, p);
         panel->y[k] = p / view->unit_mpa;
     }
     return SAMPLES;

@@ -1,8 +1,37 @@
 #ifndef GB_MEASURE_FIT_COMPACTION_COMPACTION_FITS_H
 #define GB_MEASURE_FIT_COMPACTION_COMPACTION_FITS_H
 
-#include "measure/fit/compaction/equation_fit.h"
 #include "measure/fit/compaction/equations.h"
+#include "measure/fit/fit.h"
+
+/* Least squares of one equation in the relative density, weighted by 1/error^2. */
+struct gb_equation_fit {
+    const struct gb_equation *equation;
+    size_t points, size;                                /* size: fitted parameters */
+    double x[GB_EQUATIONS_PARAMETERS];                  /* D0 last, given or fitted */
+    struct gb_fit_value value[GB_EQUATIONS_PARAMETERS]; /* the same with 95 % intervals */
+    double squares;                                     /* weighted sum of squares */
+    double rms;                                         /* of the residuals of rho */
+    double correlation;                                 /* points per independent point */
+    double variance; /* factor of the covariance: scatter and correlation */
+    double quantile; /* of Student's t, two-sided 95 % */
+    double aicc;     /* comparable between fits to the same points */
+};
+
+/* Fits from the start values of the equation and sets linear intervals (in the logarithm
+ * for positive parameters): from the errors of the points, wider where the points scatter
+ * more or are correlated; from the scatter without errors.
+ *
+ * AICc = n ln(S/n) + 2 k + 2 k (k + 1)/(n - k - 1), k parameters and the scatter:
+ * C. M. Hurvich, C.-L. Tsai, Biometrika 76, 297 (1989).
+ * Errors: those of gb_equations_check; GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
+bool gb_compaction_fits_equation_fit(struct gb_equation_fit *fit,
+                                     const struct gb_equation *equation,
+                                     const struct gb_equations_points *points,
+                                     struct gb_error *err);
+
+/* rho of the fit. */
+double gb_compaction_fits_at(const struct gb_equation_fit *fit, double pressure);
 
 /* The straightest stretch of a Heckel plot, y = ln(1/(1 - rho)) against P: of all runs of
  * consecutive points, at least a sixth of all and at least five, the longest one (in
