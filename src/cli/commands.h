@@ -3,8 +3,9 @@
 
 #include <stdio.h>
 
-/* A command is a file cmd/cmd_NAME.c, its prototype below and a row in commands.c; help,
- * manual page, dispatch and messages follow from the row. */
+/* A command is a function in a file cmd_NAME.c (close relatives share one), its prototype
+ * below and a row in commands.c; help, manual page, dispatch and messages follow from the
+ * row. */
 struct gb_commands_row {
     const char *group; /* heading in the help */
     const char *name;

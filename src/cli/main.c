@@ -20,7 +20,6 @@
 #include "cli/commands.h"
 #include "cli/completion.h"
 #include "cli/options.h"
-#include "cli/screen_options.h"
 #include "hdf/hdf.h"
 #include "io/preset_folders.h"
 #include "pack/kernel/simd.h"
@@ -135,11 +134,11 @@ static int open_scene(int argc, char **argv)
     if (argc > 1 && argv[1][0] != '-' && !may_open(argv[1])) {
         return refuse_word(argv[1]);
     }
-    const bool prints = gb_screen_options_has(argc, argv, "--diagnose") ||
-                        gb_screen_options_has(argc, argv, "--help");
-    const bool batch = gb_screen_options_has(argc, argv, "--batch");
+    const bool prints =
+        gb_options_has(argc, argv, "--diagnose") || gb_options_has(argc, argv, "--help");
+    const bool batch = gb_options_has(argc, argv, "--batch");
     if (!prints && (batch || !isatty(STDOUT_FILENO))) {
-        argc = gb_screen_options_drop(argc, argv);
+        argc = gb_options_screen_drop(argc, argv);
         static char name[] = "run";
         static char preset[] = "default";
         argv[0] = name;

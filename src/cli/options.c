@@ -1,16 +1,226 @@
 #include "cli/options.h"
 
 #include <errno.h>
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <json-glib/json-glib.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <glib/gstdio.h>
-
 #include "base/text/visible.h"
 #include "cli/completion.h"
+#include "draw/image/image.h"
 #include "draw/image/png.h"
+#include "greenbody/status.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
+#include "io/status/status_json.h"
+#include "run/run_loop.h"
+#include "tui/term/settings.h"
+
+void gb_options_screen_entries(struct gb_screen_options *options, GOptionEntry *entry)
+{
+    const GOptionEntry entries[GB_SCREEN_OPTIONS_ENTRIES] = {
+        {"color", 0, 0, G_OPTION_ARG_STRING, &options->color,
+         "auto, always or never; auto: unless NO_COLOR is set", "WHEN"},
+        {"theme", 0, 0, G_OPTION_ARG_STRING, &options->theme,
+         "colours: auto, light, dark or contrast", "NAME"},
+        {"graph", 0, 0, G_OPTION_ARG_STRING, &options->graph,
+         "characters of plots: auto, braille, block or ascii", "HOW"},
+        {"images", 0, 0, G_OPTION_ARG_STRING, &options->images,
+         "the packing as pixels: auto, none, sixel or kitty", "HOW"},
+        {"clipboard", 0, 0, G_OPTION_ARG_STRING, &options->clipboard,
+         "copies by OSC 52: auto, osc52, tmux, screen or off", "HOW"},
+        {"mouse", 0, 0, G_OPTION_ARG_STRING, &options->mouse,
+         "on or off; dragging with Shift selects text in any case", "on"},
+        {"ascii", 0, 0, G_OPTION_ARG_NONE, &options->ascii, "ASCII characters only",
+         NULL},
+        {"slow", 0, 0, G_OPTION_ARG_NONE, &options->slow,
+         "two frames a second instead of ten", NULL},
+        {"diagnose", 0, 0, G_OPTION_ARG_NONE, &options->diagnose,
+         "print the detected features of the terminal and exit", NULL}};
+    memcpy(entry, entries, sizeof entries);
+}
+
+bool gb_options_screen_settings(const struct gb_screen_options *options,
+                                struct gb_settings *settings, struct gb_error *err)
+{
+    const struct {
+        const char *name, *value;
+    } given[] = {{"color", options->color},
+                 {"theme", options->theme},
+                 {"graph", options->graph},
+                 {"images", options->images},
+                 {"clipboard", options->clipboard},
+                 {"mouse", options->mouse},
+                 {"ascii", options->ascii ? "on" : NULL},
+                 {"slow", options->slow ? "on" : NULL}};
+    char *path = gb_settings_path();
+    gb_settings_init(settings);
+    bool good = gb_settings_read(settings, path, err);
+    for (size_t i = 0; good && i < G_N_ELEMENTS(given); i++) {
+        struct gb_error wrong = {0};
+        if (given[i].value != NULL &&
+            !gb_settings_set(settings, given[i].name, given[i].value, &wrong)) {
+            good = gb_error_set(err, GB_ERR_INPUT, "--%s", wrong.text);
+        }
+    }
+    g_free(path);
+    return good;
+}
+
+void gb_options_screen_finish(struct gb_screen_options *options)
+{
+    g_free(options->color);
+    g_free(options->theme);
+    g_free(options->graph);
+    g_free(options->images);
+    g_free(options->clipboard);
+    g_free(options->mouse);
+}
+
+/* Words of an option: 1, or 2 where its value is the next word; 0: no screen option. */
+static int words_of(const char *word)
+{
+    static const char *const flags[] = {"--batch", "--ascii", "--slow"};
+    static const char *const values[] = {"--color",  "--theme",     "--graph",
+                                         "--images", "--clipboard", "--mouse"};
+    for (size_t i = 0; i < G_N_ELEMENTS(flags); i++) {
+        if (strcmp(word, flags[i]) == 0) {
+            return 1;
+        }
+    }
+    for (size_t i = 0; i < G_N_ELEMENTS(values); i++) {
+        const size_t n = strlen(values[i]);
+        if (strncmp(word, values[i], n) == 0 && (word[n] == '\0' || word[n] == '=')) {
+            return word[n] == '=' ? 1 : 2;
+        }
+    }
+    return 0;
+}
+
+int gb_options_screen_drop(int argc, char **argv)
+{
+    int kept = 0;
+    for (int i = 0; i < argc; i++) {
+        const int words = i > 0 ? words_of(argv[i]) : 0;
+        if (words == 0) {
+            argv[kept++] = argv[i];
+        }
+        i += words == 2;
+    }
+    argv[kept] = NULL;
+    return kept;
+}
+
+bool gb_options_has(int argc, char **argv, const char *word)
+{
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        if (strcmp(argv[i], word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gb_options_page_take(const struct gb_page_options *options, int *width, int *height,
+                          int *per_inch, struct gb_error *err)
+{
+    struct gb_image_print print;
+    if (options->width == NULL) {
+        return (options->per_inch == 0 ||
+                gb_error_set(err, GB_ERR_INPUT, "--dpi: expected with --width")) &&
+               (options->size == NULL ||
+                gb_image_parse_size(options->size, width, height, err));
+    }
+    if (options->size != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "--size, --width: expected one of them");
+    }
+    if (!gb_image_parse_print(options->width,
+                              options->per_inch != 0 ? options->per_inch : 300, &print,
+                              err)) {
+        return false;
+    }
+    *width = print.width;
+    *height = print.height;
+    *per_inch = print.per_inch;
+    return true;
+}
+
+static void append_column(GString *text, const struct gb_image_journal *row,
+                          const char *columns, double mm)
+{
+    if (mm > 0.0) {
+        char *name = g_strconcat(row->name, columns, NULL);
+        g_string_append_printf(text, "  %-13s%5g mm", name, mm);
+        g_free(name);
+    } else {
+        g_string_append_printf(text, "  %21s", "");
+    }
+}
+
+char *gb_options_page_journals(void)
+{
+    GString *text = g_string_new("Columns of journals for --width: one, one and a half, "
+                                 "two (sources in docs/figures.md):\n");
+    for (const struct gb_image_journal *row = gb_image_journals; row->name != NULL;
+         row++) {
+        append_column(text, row, "", row->single_mm);
+        append_column(text, row, "-1.5", row->middle_mm);
+        append_column(text, row, "-2", row->double_mm);
+        g_string_append_c(text, '\n');
+    }
+    return g_string_free(text, FALSE);
+}
+
+void gb_options_page_finish(struct gb_page_options *options)
+{
+    g_free(options->size);
+    g_free(options->width);
+}
+
+/* What --json prints: one object on one or more lines, ended by a newline. */
+
+static void print_node(JsonNode *root)
+{
+    char *text = gb_status_json_print(root);
+    gb_visible_print(stdout, "%s\n", text);
+    g_free(text);
+}
+
+JsonBuilder *gb_options_json_begin(const char *name)
+{
+    JsonBuilder *json = json_builder_new();
+    json_builder_begin_object(json);
+    json_builder_set_member_name(json, name);
+    json_builder_begin_array(json);
+    return json;
+}
+
+void gb_options_json_end(JsonBuilder *json)
+{
+    json_builder_end_array(json);
+    json_builder_end_object(json);
+    JsonNode *root = json_builder_get_root(json);
+    print_node(root);
+    json_node_unref(root);
+    g_object_unref(json);
+}
+
+void gb_options_json_run(const struct gb_run_loop *loop)
+{
+    const char *directory = gb_store_directory(gb_run_recorder_store(loop->recorder));
+    char *text =
+        gb_status_json_text(&loop->snapshot, gb_run_recorder_points(loop->recorder));
+    char *name = g_utf8_make_valid(directory, -1);
+    JsonNode *root = json_from_string(text, NULL);
+    json_object_set_string_member(json_node_get_object(root), "directory", name);
+    print_node(root);
+    json_node_unref(root);
+    g_free(name);
+    g_free(text);
+}
 
 static GOptionContext *make_context(const struct gb_options_page *page,
                                     const GOptionEntry *entries, const char *command)

@@ -1,13 +1,80 @@
 #ifndef GB_CLI_OPTIONS_H
 #define GB_CLI_OPTIONS_H
 
-#include <stdbool.h>
-
 #include <glib.h>
+#include <json-glib/json-glib.h>
+#include <stdbool.h>
 
 #include "greenbody/status.h"
 #include "io/preset.h"
+#include "run/run_loop.h"
 #include "scene/field/keep_points.h"
+#include "tui/term/settings.h"
+
+/* Options of the commands that open a screen. */
+struct gb_screen_options {
+    char *color, *theme, *graph, *images, *clipboard, *mouse; /* owned; NULL: not given */
+    gboolean ascii, slow, diagnose;
+};
+
+/* Puts their entries into a command's list, from *entry on. */
+enum { GB_SCREEN_OPTIONS_ENTRIES = 9 };
+
+void gb_options_screen_entries(struct gb_screen_options *options, GOptionEntry *entry);
+
+/* The settings of the file, overruled by the options. */
+bool gb_options_screen_settings(const struct gb_screen_options *options,
+                                struct gb_settings *settings, struct gb_error *err);
+
+void gb_options_screen_finish(struct gb_screen_options *options);
+
+/* Removes these options and --batch from the words of a command without a screen; returns
+ * the number of words left. */
+int gb_options_screen_drop(int argc, char **argv);
+
+/* Whether `word` is among the words before a "--". */
+bool gb_options_has(int argc, char **argv, const char *word);
+
+/* Options of the size of pictures and figures: pixels, or a width in print. */
+struct gb_page_options {
+    char *size, *width; /* NULL: not given; owned */
+    int per_inch;       /* 0: not given */
+};
+
+#define GB_PAGE_OPTIONS_ENTRIES(options)                                                 \
+    {"size",        0, 0, G_OPTION_ARG_STRING, &(options)->size, "pixels (1600x1200)",   \
+     "WIDTHxHEIGHT"},                                                                    \
+        {"width",                                                                        \
+         0,                                                                              \
+         0,                                                                              \
+         G_OPTION_ARG_STRING,                                                            \
+         &(options)->width,                                                              \
+         "in print, as in 8cm, 80mm or a journal's column, as elsevier: letters of 6 "   \
+         "to 9 points there",                                                            \
+         "WIDTH"},                                                                       \
+    {                                                                                    \
+        "dpi", 0, 0, G_OPTION_ARG_INT, &(options)->per_inch,                             \
+            "pixels per inch of print, with --width (300)", "N"                          \
+    }
+
+/* Sets pixels and pixels per inch of print where options were given.  Errors: GB_ERR_INPUT
+ * saying what is accepted. */
+bool gb_options_page_take(const struct gb_page_options *options, int *width, int *height,
+                          int *per_inch, struct gb_error *err);
+
+/* Widths of the columns of journals for the help of a command, with a line above; g_free. */
+char *gb_options_page_journals(void);
+
+void gb_options_page_finish(struct gb_page_options *options);
+
+/* Of a list: {name: [...]}.  Between both the elements are added to the builder, which the
+ * second prints and frees. */
+JsonBuilder *gb_options_json_begin(const char *name);
+
+void gb_options_json_end(JsonBuilder *json);
+
+/* Of a run that has ended: the object of its status.json, with "directory". */
+void gb_options_json_run(const struct gb_run_loop *loop);
 
 /* Help page of a command. */
 struct gb_options_page {

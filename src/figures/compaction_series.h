@@ -2,7 +2,7 @@
 #define GB_FIGURES_COMPACTION_SERIES_H
 
 #include "figures/series.h"
-#include "many/lab/compaction_data.h"
+#include "many/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 /* Points of one powder with fitted equations of compaction as curves of a figure. */

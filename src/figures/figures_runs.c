@@ -11,7 +11,7 @@
 #include "figures/compaction_series.h"
 #include "figures/figures.h"
 #include "figures/series.h"
-#include "many/key_difference.h"
+#include "many/runset.h"
 #include "measure/fit/average.h"
 #include "measure/hardening.h"
 #include "measure/theory.h"
@@ -671,7 +671,7 @@ static const struct gb_field *most_values(const struct gb_runset *set, bool foll
     const struct gb_field *fields = gb_params_fields(&rows);
     const struct gb_field *found = NULL;
     for (size_t i = 0; i < rows; i++) {
-        const bool other = gb_key_difference_bookkeeping(&fields[i]) ||
+        const bool other = gb_runset_bookkeeping(&fields[i]) ||
                            gb_runset_follows_material(set, &fields[i]) != follows;
         const size_t values = other ? 0 : count_values(set, &fields[i]);
         if (values > max) {

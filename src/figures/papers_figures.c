@@ -7,7 +7,7 @@
 #include "figures/figures.h"
 #include "figures/plotting.h"
 #include "io/preset.h"
-#include "many/key_difference.h"
+#include "many/runset.h"
 #include "study/papers/papers.h"
 #include "study/papers/papers_comparisons.h"
 
@@ -36,7 +36,7 @@ static int find_scene(const struct gb_papers_comparison *comparison,
         return -1;
     }
     for (size_t i = 0; i < set->count && found < 0; i++) {
-        if (gb_key_difference_find(&params, &set->run[i].params, accepted) == NULL) {
+        if (gb_runset_find(&params, &set->run[i].params, accepted) == NULL) {
             found = (int)set->run[i].group;
         }
     }

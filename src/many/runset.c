@@ -1,20 +1,66 @@
 #include "many/runset.h"
 
+#include <glib.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-#include <glib.h>
-
 #include "base/alloc.h"
+#include "greenbody/params.h"
 #include "io/follow.h"
 #include "io/status/status_json.h"
-#include "many/key_difference.h"
 #include "scene/seed.h"
+
+/* Comparison of two scenes key by key. */
+
+static bool is_listed(const struct gb_field *field, const char *const *list)
+{
+    for (size_t i = 0; list[i] != NULL; i++) {
+        const size_t length = strlen(field->group);
+        if (strncmp(list[i], field->group, length) == 0 && list[i][length] == '.' &&
+            (list[i][length + 1] == '\0' ||
+             strcmp(list[i] + length + 1, field->key) == 0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What is drawn by lot, and what changes no result. */
+bool gb_runset_bookkeeping(const struct gb_field *field)
+{
+    return field->no_result || field->type == GB_FIELD_SEED;
+}
+
+/* Whether both scenes have the same value of a key. */
+/* As a preset would write them: equal texts are equal values. */
+static bool key_difference_equal(const struct gb_field *field, const struct gb_params *a,
+                                 const struct gb_params *b)
+{
+    char first[GB_PARAMS_VALUE_MAX], second[GB_PARAMS_VALUE_MAX];
+    return strcmp(gb_params_format(a, field, first, sizeof first),
+                  gb_params_format(b, field, second, sizeof second)) == 0;
+}
+
+const struct gb_field *gb_runset_find(const struct gb_params *a,
+                                      const struct gb_params *b,
+                                      const char *const *accepted)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!gb_runset_bookkeeping(&fields[i]) && !is_listed(&fields[i], accepted) &&
+            !key_difference_equal(&fields[i], a, b)) {
+            return &fields[i];
+        }
+    }
+    return NULL;
+}
 
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
 {
     static const char *const none[] = {NULL};
-    return gb_key_difference_find(a, b, none) == NULL;
+    return gb_runset_find(a, b, none) == NULL;
 }
 
 static bool has_file(const char *directory, const char *name)
@@ -81,8 +127,7 @@ static size_t group_of(const struct gb_runset *set, size_t index, const char *co
 {
     const struct gb_runset_run *run = &set->run[index];
     for (size_t i = 0; i < index; i++) {
-        bool taken =
-            gb_key_difference_find(&run->params, &set->run[i].params, keys) != NULL;
+        bool taken = gb_runset_find(&run->params, &set->run[i].params, keys) != NULL;
         for (size_t k = 0; k < index && !taken; k++) {
             taken = set->run[k].group == set->run[i].group &&
                     is_one_cell(&set->run[k].params, &run->params);
@@ -212,7 +257,7 @@ static bool differs_somewhere(const struct gb_runset *set, const struct gb_field
     for (size_t g = 0; g < set->groups; g++) {
         const struct gb_params *other = &gb_runset_first(set, g)->params;
         if ((title == NULL || strcmp(title, other->title) == 0) &&
-            !gb_key_difference_equal(field, params, other)) {
+            !key_difference_equal(field, params, other)) {
             return true;
         }
     }
@@ -229,7 +274,7 @@ bool gb_runset_follows_material(const struct gb_runset *set, const struct gb_fie
         for (size_t h = 0; h < g; h++) {
             const struct gb_params *other = &gb_runset_first(set, h)->params;
             if (strcmp(one->material, other->material) == 0 &&
-                !gb_key_difference_equal(field, one, other)) {
+                !key_difference_equal(field, one, other)) {
                 return false;
             }
         }
@@ -248,7 +293,7 @@ static char *label_among(const struct gb_runset *set, size_t group,
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!gb_key_difference_bookkeeping(&fields[i]) &&
+        if (!gb_runset_bookkeeping(&fields[i]) &&
             !gb_runset_follows_material(set, &fields[i]) &&
             differs_somewhere(set, &fields[i], params, title)) {
             char value[GB_PARAMS_VALUE_MAX];
@@ -273,8 +318,8 @@ char *gb_runset_label_of_title(const struct gb_runset *set, size_t group)
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
                                             size_t b, const char *const *accepted)
 {
-    return gb_key_difference_find(&gb_runset_first(set, a)->params,
-                                  &gb_runset_first(set, b)->params, accepted);
+    return gb_runset_find(&gb_runset_first(set, a)->params,
+                          &gb_runset_first(set, b)->params, accepted);
 }
 
 /* Points of a branch (NULL: of all) where x is there; of those that are in equilibrium, or

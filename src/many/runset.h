@@ -1,13 +1,21 @@
 #ifndef GB_MANY_RUNSET_H
 #define GB_MANY_RUNSET_H
 
+#include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <glib.h>
-
 #include "base/table.h"
 #include "greenbody/params.h"
+
+/* Keys without effect on the experiment: title, seed, threads, [output]. */
+bool gb_runset_bookkeeping(const struct gb_field *field);
+
+/* The first key in which two scenes differ, other than bookkeeping and those of
+ * `accepted`, a NULL-terminated list of "group.key" and "group."; NULL: none. */
+const struct gb_field *gb_runset_find(const struct gb_params *a,
+                                      const struct gb_params *b,
+                                      const char *const *accepted);
 
 /* Finished runs read back from their directories.  Runs whose presets are equal but for
  * seed, title, threads and [output] are one group: replicas of one experiment. */

@@ -7,7 +7,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "io/lab/lab_reader.h"
-#include "many/lab/compaction_data.h"
+#include "many/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 static const struct gb_compaction_window whole = {

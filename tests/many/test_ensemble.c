@@ -11,9 +11,8 @@
 #include "io/lock.h"
 #include "io/store.h"
 #include "many/ensemble.h"
+#include "many/param_sweep.h"
 #include "many/reading.h"
-#include "many/sweep/axes.h"
-#include "many/sweep/param_sweep.h"
 
 /* Grids, workers and tables of many runs.  The runs are stand-ins with known curves:
  * density = 0.3 + mu p / GPa + the seed's part, unloaded from 100 MPa by one point. */
@@ -111,15 +110,16 @@ static void make(struct gb_ensemble *ensemble, const struct gb_axes *axes,
                  size_t replicas, const char *name)
 {
     struct gb_error err = {0};
-    g_assert_true(gb_ensemble_init(ensemble, gb_axes_points(axes), replicas, &err));
+    g_assert_true(
+        gb_ensemble_init(ensemble, gb_param_sweep_points(axes), replicas, &err));
     for (size_t i = 0; i < ensemble->points * replicas; i++) {
         struct gb_ensemble_run *run = &ensemble->run[i];
         run->params = scene_params("loading.until=200 MPa", NULL);
         g_assert_true(
             gb_params_assign(&run->params, "loading.unload_from=100 MPa", &err));
-        g_assert_true(gb_axes_apply(axes, run->point, &run->params, &err));
+        g_assert_true(gb_param_sweep_apply(axes, run->point, &run->params, &err));
         run->params.seed += run->replica;
-        char *point = gb_axes_name(axes, run->point);
+        char *point = gb_param_sweep_name(axes, run->point);
         run->directory = g_strdup_printf("%s/%s/%s_seed-%d", folder, name, point,
                                          (int)run->params.seed);
         g_free(point);
@@ -154,7 +154,7 @@ static char *tables(struct gb_ensemble *ensemble, const struct gb_axes *axes)
 static void add(struct gb_axes *axes, const char *text)
 {
     struct gb_error err = {0};
-    if (!gb_axes_add(axes, text, &err)) {
+    if (!gb_param_sweep_add(axes, text, &err)) {
         g_error("%s: %s", text, err.text);
     }
 }
@@ -165,32 +165,33 @@ static void test_axes(void)
     add(&axes, "contact.mu=0.05:0.4:8");
     add(&axes, "particles.diameter=9.7;16;21;38 nm");
     add(&axes, "loading.geometry=uniaxial; isotropic");
-    g_assert_cmpuint(gb_axes_points(&axes), ==, 64);
-    g_assert_cmpstr(gb_axes_value(&axes, 0, 0), ==, "0.05");
-    g_assert_cmpstr(gb_axes_value(&axes, 8, 0), ==, "0.1"); /* not 0.1 and a tail */
-    g_assert_cmpstr(gb_axes_value(&axes, 63, 0), ==, "0.4");
-    g_assert_cmpstr(gb_axes_value(&axes, 7, 1), ==, "38 nm");
-    g_assert_cmpstr(gb_axes_value(&axes, 7, 2), ==, "isotropic");
-    char *name = gb_axes_name(&axes, 10);
+    g_assert_cmpuint(gb_param_sweep_points(&axes), ==, 64);
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 0, 0), ==, "0.05");
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 8, 0), ==,
+                    "0.1"); /* not 0.1 and a tail */
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 63, 0), ==, "0.4");
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 7, 1), ==, "38 nm");
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 7, 2), ==, "isotropic");
+    char *name = gb_param_sweep_name(&axes, 10);
     g_assert_cmpstr(name, ==, "mu-0.1_diameter-16nm_geometry-uniaxial");
     g_free(name);
-    char *column = gb_axes_column(&axes, 1);
+    char *column = gb_param_sweep_column(&axes, 1);
     char cell[GB_PARAMS_VALUE_MAX];
     g_assert_cmpstr(column, ==, "particles.diameter_nm");
-    g_assert_cmpstr(gb_axes_cell(&axes, 2, 1, cell, sizeof cell), ==, "16");
+    g_assert_cmpstr(gb_param_sweep_cell(&axes, 2, 1, cell, sizeof cell), ==, "16");
     g_free(column);
     struct gb_params params = scene_params(NULL, NULL);
-    g_assert_true(gb_axes_apply(&axes, 10, &params, NULL));
+    g_assert_true(gb_param_sweep_apply(&axes, 10, &params, NULL));
     g_assert_cmpfloat(params.mu, ==, 0.1);
     g_assert_cmpfloat(params.diameter_m, ==, 16e-9);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
     add(&axes, "loading.until=100:10000:3:log MPa");
-    g_assert_cmpstr(gb_axes_value(&axes, 1, 0), ==, "1 GPa");
-    column = gb_axes_column(&axes, 0); /* two units: one for all */
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 1, 0), ==, "1 GPa");
+    column = gb_param_sweep_column(&axes, 0); /* two units: one for all */
     g_assert_cmpstr(column, ==, "loading.until_SI");
-    g_assert_cmpstr(gb_axes_cell(&axes, 0, 0, cell, sizeof cell), ==, "100000000");
+    g_assert_cmpstr(gb_param_sweep_cell(&axes, 0, 0, cell, sizeof cell), ==, "100000000");
     g_free(column);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* Any two values have directories of their own. */
@@ -201,23 +202,23 @@ static void test_axes_names(void)
     struct gb_axes axes = {0};
     add(&axes, "material.name=a/b;ab;a b;a_b;a~20b");
     for (size_t i = 0; i < G_N_ELEMENTS(expected); i++) {
-        char *name = gb_axes_name(&axes, i);
+        char *name = gb_param_sweep_name(&axes, i);
         g_assert_cmpstr(name, ==, expected[i]);
         g_free(name);
     }
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
     /* longer than a file's name may be, and different at the end only */
     char *same = g_strnfill(62, 'x');
     char *line = g_strdup_printf("material.name=%sa;%sb", same, same);
     add(&axes, line);
-    char *a = gb_axes_name(&axes, 0), *b = gb_axes_name(&axes, 1);
+    char *a = gb_param_sweep_name(&axes, 0), *b = gb_param_sweep_name(&axes, 1);
     g_assert_cmpstr(a, !=, b);
     g_assert_cmpuint(strlen(a), ==, strlen("name-") + 40 + 2 + 16);
     g_free(a);
     g_free(b);
     g_free(same);
     g_free(line);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* All keys of a material, in front of those of other axes. */
@@ -226,22 +227,22 @@ static void test_axes_material(void)
     struct gb_axes axes = {0};
     add(&axes, "material.young=5;6 GPa");
     add(&axes, "material=yttria,microcrystalline-cellulose");
-    g_assert_cmpuint(gb_axes_points(&axes), ==, 4);
-    char *name = gb_axes_name(&axes, 3);
+    g_assert_cmpuint(gb_param_sweep_points(&axes), ==, 4);
+    char *name = gb_param_sweep_name(&axes, 3);
     g_assert_cmpstr(name, ==, "young-6GPa_material-microcrystalline-cellulose");
     g_free(name);
-    char *column = gb_axes_column(&axes, 1);
+    char *column = gb_param_sweep_column(&axes, 1);
     char cell[GB_PARAMS_VALUE_MAX];
     g_assert_cmpstr(column, ==, "material.name");
-    g_assert_cmpstr(gb_axes_cell(&axes, 2, 1, cell, sizeof cell), ==, "yttria");
+    g_assert_cmpstr(gb_param_sweep_cell(&axes, 2, 1, cell, sizeof cell), ==, "yttria");
     g_free(column);
     struct gb_params params = scene_params(NULL, NULL);
-    g_assert_true(gb_axes_apply(&axes, 2, &params, NULL));
+    g_assert_true(gb_param_sweep_apply(&axes, 2, &params, NULL));
     g_assert_cmpstr(params.material, ==, "yttria");
     g_assert_cmpfloat(params.density_kg_m3, ==, 5020.0);
     g_assert_cmpfloat(params.young_pa, ==, 6e9);
-    g_assert_false(gb_axes_add(&axes, "material.name=a;b", NULL));
-    gb_axes_finish(&axes);
+    g_assert_false(gb_param_sweep_add(&axes, "material.name=a;b", NULL));
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* Points of a Sobol sequence: one value of each key at a point, a longer design contains
@@ -250,8 +251,8 @@ static void test_axes_design(void)
 {
     struct gb_axes axes = {0}, longer = {0};
     struct gb_error err = {0};
-    g_assert_true(gb_axes_design(&axes, "sobol:8", &err));
-    g_assert_true(gb_axes_design(&longer, "sobol:16", &err));
+    g_assert_true(gb_param_sweep_design(&axes, "sobol:8", &err));
+    g_assert_true(gb_param_sweep_design(&longer, "sobol:16", &err));
     static const char *const keys[] = {"contact.mu=0.05:0.45",
                                        "particles.diameter=10:1000:log nm",
                                        "particles.count=100:200"};
@@ -259,14 +260,15 @@ static void test_axes_design(void)
         add(&axes, keys[k]);
         add(&longer, keys[k]);
     }
-    g_assert_cmpuint(gb_axes_points(&axes), ==, 8);
-    g_assert_cmpstr(gb_axes_value(&axes, 0, 0), ==, "0.25");
-    g_assert_cmpstr(gb_axes_value(&axes, 0, 1), ==, "100 nm");
-    g_assert_cmpstr(gb_axes_value(&axes, 0, 2), ==, "150");
+    g_assert_cmpuint(gb_param_sweep_points(&axes), ==, 8);
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 0, 0), ==, "0.25");
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 0, 1), ==, "100 nm");
+    g_assert_cmpstr(gb_param_sweep_value(&axes, 0, 2), ==, "150");
     bool low[3] = {false}, high[3] = {false};
     for (size_t p = 0; p < 8; p++) {
         for (size_t k = 0; k < 3; k++) {
-            g_assert_cmpstr(gb_axes_value(&axes, p, k), ==, gb_axes_value(&longer, p, k));
+            g_assert_cmpstr(gb_param_sweep_value(&axes, p, k), ==,
+                            gb_param_sweep_value(&longer, p, k));
             low[k] = low[k] || axes.axis[k].share[p] < 0.25;
             high[k] = high[k] || axes.axis[k].share[p] > 0.75;
         }
@@ -275,22 +277,22 @@ static void test_axes_design(void)
         g_assert_true(low[k] && high[k]);
     }
     struct gb_params params = scene_params(NULL, NULL);
-    g_assert_true(gb_axes_apply(&axes, 0, &params, NULL));
+    g_assert_true(gb_param_sweep_apply(&axes, 0, &params, NULL));
     g_assert_cmpfloat(params.mu, ==, 0.25);
     g_assert_cmpint(params.count, ==, 150);
-    gb_axes_finish(&axes);
-    gb_axes_finish(&longer);
+    gb_param_sweep_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&longer);
     static const char *const bad[] = {"contact.mu=0.1:0.2:3", "contact.mu=0.1;0.2",
                                       "contact.mu=0.1",       "loading.geometry=0:1",
                                       "contact.mu=0.1:0.1",   "material=iron;copper"};
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         struct gb_axes refused = {.design = 8};
-        g_assert_false(gb_axes_add(&refused, bad[i], &err));
+        g_assert_false(gb_param_sweep_add(&refused, bad[i], &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-        gb_axes_finish(&refused);
+        gb_param_sweep_axes_finish(&refused);
     }
-    g_assert_false(gb_axes_design(&axes, "sobol:1", &err));
-    g_assert_false(gb_axes_design(&axes, "grid:8", &err));
+    g_assert_false(gb_param_sweep_design(&axes, "sobol:1", &err));
+    g_assert_false(gb_param_sweep_design(&axes, "grid:8", &err));
     g_assert_nonnull(strstr(err.text, "expected sobol:N"));
 }
 
@@ -329,15 +331,15 @@ static void test_axes_refuse(void)
         struct gb_axes axes = {0};
         struct gb_error err = {0};
         g_test_message("%s", bad[i]);
-        g_assert_false(gb_axes_add(&axes, bad[i], &err));
+        g_assert_false(gb_param_sweep_add(&axes, bad[i], &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         g_assert_cmpstr(err.text, !=, "");
-        gb_axes_finish(&axes);
+        gb_param_sweep_axes_finish(&axes);
     }
     struct gb_axes axes = {0};
     add(&axes, "contact.mu=0.1;0.2");
-    g_assert_false(gb_axes_add(&axes, "contact.mu=0.3;0.4", NULL));
-    gb_axes_finish(&axes);
+    g_assert_false(gb_param_sweep_add(&axes, "contact.mu=0.3;0.4", NULL));
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* The means of the stand-in's curves, exactly. */
@@ -381,7 +383,7 @@ static void test_table(void)
     g_strfreev(lines);
     g_string_free(means, TRUE);
     gb_ensemble_finish(&ensemble);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* Crashes and guards cost one run each; one worker and five give the same tables. */
@@ -416,7 +418,7 @@ static void test_failures(void)
     g_assert_nonnull(strstr(text[0], "1,0.1,load,25,4,"));
     g_free(text[0]);
     g_free(text[1]);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 static long made_at(const struct gb_ensemble_run *run)
@@ -464,7 +466,7 @@ static void test_restart(void)
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     g_assert_nonnull(strstr(err.text, "other parameters"));
     gb_ensemble_finish(&ensemble);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* Once both workers are at work. */
@@ -522,7 +524,7 @@ static void test_keeping(void)
         g_assert_cmpstr(ensemble.run[i].error.text, ==, "");
     }
     gb_ensemble_finish(&ensemble);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* What is kept for a while. */
@@ -575,7 +577,7 @@ static void test_enough(void)
     g_assert_cmpstr(text[0], ==, text[1]);
     g_free(text[0]);
     g_free(text[1]);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* Another process that has the directory of a run, until it is killed. */
@@ -650,7 +652,7 @@ static void test_elsewhere(void)
         g_assert_true(ensemble.run[i].ended && ensemble.run[i].error.code == GB_OK);
     }
     gb_ensemble_finish(&ensemble);
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 /* Parts have their runs only, each run is of one part. */
@@ -676,7 +678,7 @@ static void test_parts(void)
     for (size_t i = 0; i < 7; i++) {
         g_assert_cmpint(ended[i], ==, 1);
     }
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
 }
 
 static void test_pressures(void)

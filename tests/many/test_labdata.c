@@ -6,7 +6,7 @@
 #include <glib/gstdio.h>
 
 #include "common/scene.h"
-#include "many/lab/labdata.h"
+#include "many/compaction_data.h"
 
 static char *folder;
 
@@ -28,7 +28,7 @@ static bool take(struct gb_labdata *measured, const char *text, struct gb_error 
 {
     const struct gb_params params = scene_params(NULL, NULL);
     struct gb_table *table = table_of(text);
-    const bool good = gb_labdata_take(measured, table, &params, err);
+    const bool good = gb_compaction_data_take(measured, table, &params, err);
     gb_table_destroy(table);
     return good;
 }
@@ -68,7 +68,7 @@ static void test_quantities(void)
     g_assert_cmpint(measured.scene[0].unload_count, ==, 2);
     g_assert_cmpfloat_with_epsilon(measured.scene[0].unload_from_pa[0], 150e6, 1);
     g_assert_cmpfloat_with_epsilon(measured.scene[0].until_pressure_pa, 200e6, 1);
-    gb_labdata_finish(&measured);
+    gb_compaction_data_targets_finish(&measured);
 }
 
 static void test_refused(void)
@@ -112,16 +112,17 @@ static void test_simulated(void)
     struct gb_table *curve = table_of(text->str);
     g_string_free(text, TRUE);
     struct gb_labdata_row row = {.pressure_pa = 100e6};
-    g_assert_cmpfloat_with_epsilon(gb_labdata_simulated(&row, curve), from, 1e-12);
-    row.quantity = GB_LAB_QUANTITY_LATERAL_RATIO;
-    g_assert_cmpfloat_with_epsilon(gb_labdata_simulated(&row, curve), 0.6, 1e-12);
-    row.quantity = GB_LAB_QUANTITY_COORDINATION;
-    g_assert_cmpfloat_with_epsilon(gb_labdata_simulated(&row, curve), 5.0 + 5.0 / 6.0,
+    g_assert_cmpfloat_with_epsilon(gb_compaction_data_simulated(&row, curve), from,
                                    1e-12);
+    row.quantity = GB_LAB_QUANTITY_LATERAL_RATIO;
+    g_assert_cmpfloat_with_epsilon(gb_compaction_data_simulated(&row, curve), 0.6, 1e-12);
+    row.quantity = GB_LAB_QUANTITY_COORDINATION;
+    g_assert_cmpfloat_with_epsilon(gb_compaction_data_simulated(&row, curve),
+                                   5.0 + 5.0 / 6.0, 1e-12);
     row.quantity = GB_LAB_QUANTITY_UNLOADING_MODULUS;
-    g_assert_cmpfloat_with_epsilon(gb_labdata_simulated(&row, curve), 20.0, 1e-3);
+    g_assert_cmpfloat_with_epsilon(gb_compaction_data_simulated(&row, curve), 20.0, 1e-3);
     row.pressure_pa = 50e6; /* no unloading from there */
-    g_assert_true(isnan(gb_labdata_simulated(&row, curve)));
+    g_assert_true(isnan(gb_compaction_data_simulated(&row, curve)));
     gb_table_destroy(curve);
 }
 

@@ -3,7 +3,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "many/launch.h"
+#include "many/pool.h"
 
 /* Rank and count by the variables of launchers, and the share of the processors. */
 
@@ -38,7 +38,7 @@ static struct gb_launch read_of(const char *variables)
         g_strfreev(pair);
     }
     g_strfreev(pairs);
-    return gb_launch_read();
+    return gb_pool_read();
 }
 
 static void test_launchers(void)
@@ -94,13 +94,13 @@ static void test_cores(void)
 {
     const long own = (long)g_get_num_processors();
     struct gb_launch launch = read_of("SLURM_CPUS_ON_NODE=1000000");
-    const long alone = gb_launch_cores(&launch);
+    const long alone = gb_pool_cores(&launch);
     g_assert_cmpint(alone, >=, 1);
     g_assert_cmpint(alone, <=, own);
     launch.local_count = 1000000;
-    g_assert_cmpint(gb_launch_cores(&launch), ==, 1);
+    g_assert_cmpint(gb_pool_cores(&launch), ==, 1);
     launch = read_of("SLURM_CPUS_ON_NODE=1");
-    g_assert_cmpint(gb_launch_cores(&launch), ==, 1);
+    g_assert_cmpint(gb_pool_cores(&launch), ==, 1);
 }
 
 static void put(const char *folder, const char *text)
@@ -117,17 +117,17 @@ static void test_quota(void)
     char *root = g_dir_make_tmp("greenbody-launch-XXXXXX", NULL);
     char *job = g_build_filename(root, "job", NULL);
     char *step = g_build_filename(job, "step", NULL);
-    g_assert_cmpint(gb_launch_quota(root, "/job/step"), ==, 0);
+    g_assert_cmpint(gb_pool_quota(root, "/job/step"), ==, 0);
     put(step, "max 100000\n");
-    g_assert_cmpint(gb_launch_quota(root, "/job/step"), ==, 0);
+    g_assert_cmpint(gb_pool_quota(root, "/job/step"), ==, 0);
     put(job, "350000 100000\n");
-    g_assert_cmpint(gb_launch_quota(root, "/job/step"), ==, 4);
+    g_assert_cmpint(gb_pool_quota(root, "/job/step"), ==, 4);
     put(step, "1000 100000\n");
-    g_assert_cmpint(gb_launch_quota(root, "/job/step"), ==, 1);
-    g_assert_cmpint(gb_launch_quota(root, "/job"), ==, 4);
+    g_assert_cmpint(gb_pool_quota(root, "/job/step"), ==, 1);
+    g_assert_cmpint(gb_pool_quota(root, "/job"), ==, 4);
     put(root, "200000 100000\n");
-    g_assert_cmpint(gb_launch_quota(root, "/job"), ==, 2);
-    g_assert_cmpint(gb_launch_quota(root, "/"), ==, 2);
+    g_assert_cmpint(gb_pool_quota(root, "/job"), ==, 2);
+    g_assert_cmpint(gb_pool_quota(root, "/"), ==, 2);
     const char *const folders[] = {step, job, root};
     for (size_t i = 0; i < G_N_ELEMENTS(folders); i++) {
         char *path = g_build_filename(folders[i], "cpu.max", NULL);

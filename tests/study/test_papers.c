@@ -186,8 +186,8 @@ static size_t points_of(const char *experiment)
     const size_t index = gb_papers_plan_index(experiment);
     g_assert_cmpuint(index, <, gb_papers_plan_count());
     g_assert_true(gb_papers_plan_axes(&gb_papers_plan_table()[index], &axes, &err));
-    const size_t points = gb_axes_points(&axes);
-    gb_axes_finish(&axes);
+    const size_t points = gb_param_sweep_points(&axes);
+    gb_param_sweep_axes_finish(&axes);
     return points;
 }
 

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "tui/app/keys.h"
-#include "tui/app/help_list.h"
 #include "tui/view/views.h"
 
 static int scope_of(GHashTable *codes, int code)
@@ -36,7 +35,8 @@ static void test_dispatch(void)
     for (size_t i = 0; i < gb_keys_count(); i++) {
         const struct gb_key key = gb_keys_at(i);
         g_assert_nonnull(key.command);
-        g_assert_cmpint(key.scope & (GB_KEY_ANY_PANE | GB_KEY_LEGS | GB_KEY_CURVES), !=, 0);
+        g_assert_cmpint(key.scope & (GB_KEY_ANY_PANE | GB_KEY_LEGS | GB_KEY_CURVES), !=,
+                        0);
         g_assert_cmpint(key.code[0], !=, 0);
         for (int k = 0; k < GB_KEYS_PER_ROW && key.code[k] != 0; k++) {
             g_assert_true(gb_keys_find(key.code[k], key.scope, &found));
@@ -180,11 +180,11 @@ static void test_footers(void)
 /* The help has every row of the tables of docs/glossary.md. */
 static void test_glossary(void)
 {
-    char *path = g_build_filename(g_getenv("GB_PRESET_DIR"), "..", "docs", "glossary.md",
-                                  NULL);
+    char *path =
+        g_build_filename(g_getenv("GB_PRESET_DIR"), "..", "docs", "glossary.md", NULL);
     char *page = NULL;
     size_t count = 0;
-    const struct gb_help_word *words = gb_help_list_words(&count);
+    const struct gb_help_word *words = gb_keys_glossary(&count);
     size_t rows = 0;
     g_assert_true(g_file_get_contents(path, &page, NULL, NULL));
     for (const char *at = page; (at = strstr(at, "\n| ")) != NULL; at++) {

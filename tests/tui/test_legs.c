@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tui/legs/leg_sketch.h"
-#include "tui/legs/leg_editor.h"
+#include "tui/app/leg_editor.h"
 
 static void check_text(const struct gb_leg_list *list, const char *expected)
 {
@@ -18,7 +17,8 @@ static void test_list(void)
 {
     struct gb_leg_list list;
     gb_leg_editor_list_init(&list, "isotropic to 50 MPa; unload", 3);
-    g_assert_cmpint(gb_leg_editor_list_insert(&list, 1, "shear xz to 20 % then hold"), ==, 2);
+    g_assert_cmpint(gb_leg_editor_list_insert(&list, 1, "shear xz to 20 % then hold"), ==,
+                    2);
     check_text(&list, "isotropic to 50 MPa; shear xz to 20 %; hold; unload");
     g_assert_true(gb_leg_editor_list_move(&list, 2, -1));
     g_assert_false(gb_leg_editor_list_move(&list, 0, -1));
@@ -106,7 +106,7 @@ static void test_plan(void)
     for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
         const struct gb_path path = parse(cases[i].path);
         struct gb_leg_plan plan;
-        gb_leg_sketch_plan(&plan, &path, 3);
+        gb_leg_editor_plan(&plan, &path, 3);
         const struct gb_leg_plan_state *last = &plan.state[plan.count - 1];
         const double p = 1e-6 * last->p, q = 1e-6 * last->q;
         const bool good = isnan(cases[i].p) ? !isfinite(p) || !isfinite(q)
@@ -134,7 +134,7 @@ static void test_sketch(void)
         struct gb_plot plot;
         gb_plot_init(&plot);
         g_assert_true(gb_plot_resize(&plot, 10, 40, GB_PLOT_ASCII, NULL));
-        gb_leg_sketch_draw(&path, 3, cases[i].focus, &plot);
+        gb_leg_editor_sketch(&path, 3, cases[i].focus, &plot);
         char *text = gb_plot_dump(&plot);
         if (strstr(text, cases[i].shows) == NULL) {
             g_error("%s:\n%s", cases[i].path, text);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "tui/plot/plot.h"
+#include "tui/panel/plot.h"
 
 enum { POINTS = 101 };
 

@@ -1,7 +1,7 @@
 /* The band between two lines of a plot. */
 #include <glib.h>
 
-#include "tui/plot/plot.h"
+#include "tui/panel/plot.h"
 
 /* Number of a field's dots, of braille, or of its cells that are not empty. */
 static int count_dots(const struct gb_plot *plot, int row, int col)

@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/session/params_diff.h"
+#include "tui/session/previous.h"
 
 static void test_command(void)
 {
@@ -12,17 +12,17 @@ static void test_command(void)
         g_error("%s", err.text);
     }
     struct gb_params *params = gb_preset_params(preset);
-    char *text = gb_params_diff_command(preset, params, 80);
+    char *text = gb_previous_command(preset, params, 80);
     g_assert_cmpstr(text, ==, "greenbody run default");
     g_free(text);
     g_assert_true(gb_params_assign(params, "contact.mu=0.25", NULL));
     g_assert_true(gb_params_assign(params, "loading.until=density = 0.5", NULL));
-    text = gb_params_diff_command(preset, params, 80);
+    text = gb_previous_command(preset, params, 80);
     g_assert_cmpstr(text, ==,
                     "greenbody run default contact.mu=0.25 "
                     "'loading.until=density = 0.5'");
     g_free(text);
-    text = gb_params_diff_command(preset, params, 40);
+    text = gb_previous_command(preset, params, 40);
     char **lines = g_strsplit(text, "\n", -1);
     for (int i = 0; lines[i] != NULL; i++) {
         g_assert_cmpint((int)strlen(lines[i]), <=, 40);

@@ -1,7 +1,7 @@
 /* Packings drawn as lit spheres. */
 #include <glib.h>
 
-#include "tui/plot/sphere_shading.h"
+#include "tui/panel/sphere_shading.h"
 
 enum { ROWS = 40, COLS = 40 };
 

@@ -3,7 +3,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/plot/plot.h"
+#include "tui/panel/plot.h"
 #include "tui/term/paint.h"
 
 #define ELLIPSIS "\u2026"

@@ -14,7 +14,7 @@
 #include "io/measured.h"
 #include "io/status/status_json.h"
 #include "many/die_summary.h"
-#include "many/lab/compaction_data.h"
+#include "many/compaction_data.h"
 #include "many/runset.h"
 #include "measure/cell_scatter.h"
 #include "measure/fit/average.h"

@@ -13,9 +13,8 @@
 #include "base/units.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
+#include "many/compaction_data.h"
 #include "many/ensemble.h"
-#include "many/key_difference.h"
-#include "many/lab/labdata.h"
 #include "many/reading.h"
 #include "many/runset.h"
 #include "study/calibrate/calibrate.h"
@@ -109,7 +108,7 @@ static bool find_field(const struct gb_free_keys *keys, struct gb_free_key *key,
         return false;
     }
     const bool fit =
-        !gb_key_difference_bookkeeping(key->field) &&
+        !gb_runset_bookkeeping(key->field) &&
         (key->field->type == GB_FIELD_NUMBER || key->field->type == GB_FIELD_RELATIVE);
     bool twice = false;
     for (size_t i = 0; i < keys->count; i++) {
@@ -254,7 +253,7 @@ static void read_values(const struct gb_calibration *calibration,
         if (row->scene != run->point % lab->scenes) {
             continue;
         }
-        out[i] = good ? gb_labdata_simulated(row, curve) : (double)NAN;
+        out[i] = good ? gb_compaction_data_simulated(row, curve) : (double)NAN;
     }
     gb_table_destroy(curve);
 }
@@ -371,7 +370,7 @@ bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err
 void gb_calibration_finish(struct gb_calibration *calibration)
 {
     gb_calibrate_finish(&calibration->result);
-    gb_labdata_finish(&calibration->lab);
+    gb_compaction_data_targets_finish(&calibration->lab);
     gb_listing_free(calibration->rounds);
     calibration->rounds = NULL;
 }

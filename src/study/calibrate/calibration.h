@@ -8,8 +8,8 @@
 #include "base/listing.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
+#include "many/compaction_data.h"
 #include "many/ensemble.h"
-#include "many/lab/labdata.h"
 #include "study/calibrate/calibrate.h"
 
 /* Keys of a preset as plain numbers that a fit may change: SI, or the multiple where the

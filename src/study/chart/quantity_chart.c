@@ -17,7 +17,7 @@
 #include "base/units.h"
 #include "greenbody/params.h"
 #include "many/die_summary.h"
-#include "many/lab/compaction_data.h"
+#include "many/compaction_data.h"
 #include "many/pool.h"
 #include "many/single_run.h"
 #include "measure/cap/cap_fit.h"

@@ -11,7 +11,7 @@
 #include "base/read_file.h"
 #include "io/text_file.h"
 #include "many/ensemble.h"
-#include "many/launch.h"
+#include "many/pool.h"
 
 enum { QUESTION_BYTES_MAX = 1 << 24 };
 
@@ -253,8 +253,8 @@ bool gb_cells_work(struct gb_cells *cells, int jobs, gb_pool_work *work,
                    const struct gb_cells_callbacks *callbacks, struct gb_error *err)
 {
     static const struct gb_cells_callbacks none;
-    const struct gb_launch launch = gb_launch_read();
-    const size_t workers = (size_t)(jobs > 0 ? jobs : gb_launch_cores(&launch));
+    const struct gb_launch launch = gb_pool_read();
+    const size_t workers = (size_t)(jobs > 0 ? jobs : gb_pool_cores(&launch));
     struct work study = {.cells = cells,
                          .callbacks = callbacks != NULL ? callbacks : &none,
                          .idle_since = gb_clock_s()};

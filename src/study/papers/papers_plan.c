@@ -11,7 +11,7 @@
 
 #include "io/preset.h"
 #include "many/ensemble.h"
-#include "many/sweep/axes.h"
+#include "many/param_sweep.h"
 #include "run/cost.h"
 #include "scene/loading_kind.h"
 
@@ -96,7 +96,7 @@ bool gb_papers_plan_axes(const struct gb_papers_experiment *experiment,
                          struct gb_axes *axes, struct gb_error *err)
 {
     *axes = (struct gb_axes){0};
-    return experiment->axis == NULL || gb_axes_add(axes, experiment->axis, err);
+    return experiment->axis == NULL || gb_param_sweep_add(axes, experiment->axis, err);
 }
 
 bool gb_papers_plan_params(const struct gb_papers_experiment *experiment,
@@ -112,9 +112,9 @@ bool gb_papers_plan_params(const struct gb_papers_experiment *experiment,
                (size == GB_PAPERS_SIZES ||
                 apply(params, experiment->extent[size].change, err)) &&
                gb_papers_plan_axes(experiment, &axes, err) &&
-               gb_axes_apply(&axes, point, params, err);
+               gb_param_sweep_apply(&axes, point, params, err);
     }
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
     gb_preset_destroy(preset);
     return good;
 }
@@ -192,7 +192,7 @@ static bool add_point(struct list *list, size_t experiment, const struct gb_axes
         return false;
     }
     params.threads = 1; /* the cores are shared by the runs */
-    char *name = gb_axes_name(axes, point);
+    char *name = gb_param_sweep_name(axes, point);
     for (int cell = 0; cell < cells; cell++) {
         const struct gb_papers_run run = {experiment, point, (size_t)cell};
         g_array_append_val(list->run, run);
@@ -210,10 +210,10 @@ static bool add_experiment(struct list *list, size_t experiment, struct gb_error
 {
     struct gb_axes axes = {0};
     bool good = gb_papers_plan_axes(&experiments[experiment], &axes, err);
-    for (size_t point = 0; good && point < gb_axes_points(&axes); point++) {
+    for (size_t point = 0; good && point < gb_param_sweep_points(&axes); point++) {
         good = add_point(list, experiment, &axes, point, err);
     }
-    gb_axes_finish(&axes);
+    gb_param_sweep_axes_finish(&axes);
     return good;
 }
 

@@ -5,8 +5,8 @@
 #include <stddef.h>
 
 #include "many/ensemble.h"
+#include "many/param_sweep.h"
 #include "many/runset.h"
-#include "many/sweep/axes.h"
 
 enum gb_papers_size {
     GB_PAPERS_FULL, /* the papers' cells */
@@ -46,7 +46,7 @@ bool gb_papers_plan_params(const struct gb_papers_experiment *experiment,
                            enum gb_papers_size size, size_t point,
                            struct gb_params *params, struct gb_error *err);
 
-/* Its axis; gb_axes_finish is due in any case. */
+/* Its axis; gb_param_sweep_axes_finish is due in any case. */
 bool gb_papers_plan_axes(const struct gb_papers_experiment *experiment,
                          struct gb_axes *axes, struct gb_error *err);
 

@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/listing.h"
 #include "base/number.h"
-#include "many/sweep/param_sweep.h"
+#include "many/param_sweep.h"
 #include "measure/fit/sobol_indices.h"
 
 /* Sensitivities of what a sweep by a design measures: which varied key its figures depend

@@ -3,12 +3,12 @@
 
 #include <glib.h>
 
-#include "many/sweep/param_sweep.h"
+#include "many/param_sweep.h"
 #include "measure/fit/sobol_indices.h"
 
 /* One figure at one pressure. */
 struct gb_sensitivity_item {
-    size_t branch, pressure, quantity; /* indices as in many/sweep/param_sweep.h */
+    size_t branch, pressure, quantity; /* indices as in many/param_sweep.h */
     struct gb_sobol_indices indices;
 };
 

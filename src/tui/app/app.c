@@ -14,7 +14,7 @@
 #include "tui/app/key_commands.h"
 #include "tui/app/screen.h"
 #include "tui/session/run_lifecycle.h"
-#include "tui/term/term_tty.h"
+#include "tui/term/term.h"
 
 /* The workbench: keys and mouse events go to the open dialog, the edited value or the key
  * table; a loop draws frames and takes news of the session. */
@@ -197,9 +197,9 @@ static void interrupt(struct gb_app *app)
 {
     if (app->screen.dialog.type == &gb_dialogs_quit ||
         !gb_session_live(&app->screen.session)) {
-        gb_screen_commands_leave(app, STATUS_SIGNAL + SIGINT);
+        gb_pane_commands_leave(app, STATUS_SIGNAL + SIGINT);
     } else {
-        gb_screen_commands_ask_quit(app);
+        gb_pane_commands_ask_quit(app);
     }
 }
 
@@ -222,11 +222,11 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
         interrupt(app);
         break;
     case GB_TERM_TERMINATE:
-        gb_screen_commands_leave(app, STATUS_SIGNAL + event->code);
+        gb_pane_commands_leave(app, STATUS_SIGNAL + event->code);
         break;
     case GB_TERM_HANGUP:
         app->terminal_lost = true;
-        gb_screen_commands_leave(app, STATUS_SIGNAL + SIGHUP);
+        gb_pane_commands_leave(app, STATUS_SIGNAL + SIGHUP);
         break;
     }
 }
@@ -273,7 +273,7 @@ static void draw(struct gb_app *app)
 static bool poll_stderr(struct gb_app *app)
 {
     char line[160];
-    const bool found = gb_term_tty_tail_poll(&app->stderr_tail, line, sizeof line);
+    const bool found = gb_term_tail_poll(&app->stderr_tail, line, sizeof line);
     if (found) {
         gb_session_note(&app->screen.session, "library message: %s", line);
     }
@@ -289,7 +289,7 @@ static void loop(struct gb_app *app)
         app->redraw = gb_session_refresh(&app->screen.session) || app->redraw ||
                       gb_pixels_image_due(&app->screen.image, gb_clock_s());
         app->redraw = poll_stderr(app) || app->redraw;
-        gb_run_commands_follow_quick(app);
+        gb_file_commands_follow_quick(app);
         gb_job_commands_result_follow(app);
         if (app->redraw && !app->leave && frame_wait(app) <= 0.0) {
             draw(app);
@@ -314,13 +314,13 @@ static bool open_first(struct gb_app *app, struct gb_error *err)
 {
     struct gb_session *session = &app->screen.session;
     struct gb_error log = {0};
-    if (!gb_term_tty_check_log(&log)) {
+    if (!gb_term_check_log(&log)) {
         gb_session_note(session, "%s", log.text);
     }
     if (session->attached != NULL) {
         return gb_run_lifecycle_attach(session, err);
     }
-    gb_run_commands_start_scene(app);
+    gb_file_commands_start_scene(app);
     return true;
 }
 
@@ -366,7 +366,7 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
         return gb_status_exit_code(GB_ERR_MACHINE);
     }
     app->redraw = app->input_pending = true;
-    gb_term_tty_tail_init(&app->stderr_tail);
+    gb_term_tail_init(&app->stderr_tail);
     app->frames_max = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
     first_focus(screen);
     gb_session_init(&screen->session, preset);

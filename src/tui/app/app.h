@@ -5,7 +5,7 @@
 #include "io/preset.h"
 #include "tui/app/screen.h"
 #include "tui/term/settings.h"
-#include "tui/term/term_tty.h"
+#include "tui/term/term.h"
 
 /* The workbench: takes over the terminal, starts a run of the preset and handles events
  * until the user quits.  The preset's parameters are edited in place; the caller owns it.

@@ -1,17 +1,306 @@
 #include "tui/app/dialog.h"
 
 #include <glib.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/units.h"
+#include "greenbody/params.h"
+#include "run/quick.h"
+#include "scene/field/field.h"
+#include "scene/field/field_words.h"
 #include "tui/app/key_commands.h"
+#include "tui/app/keys.h"
 #include "tui/panel/density_table.h"
 #include "tui/panel/list_box.h"
 #include "tui/panel/prompt.h"
+#include "tui/session/pressure_rows.h"
+#include "tui/session/previous.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
+#include "tui/view/views.h"
+
+/* The list of parameters that match what is typed, the nearest first (field_words.h). */
+
+/* Columns of a wide list; a narrow one leaves the meaning out. */
+enum { FOUND_COLS = 25, VALUE_COLS = 14, WORDS_ROWS = 2, HEAD_ROWS = 2 };
+
+/* Nearest first; of the same rank as in the field table. */
+static int rank_field(void *data, int item, char **words)
+{
+    struct gb_param_finder *finder = data;
+    size_t count = 0;
+    (void)words;
+    return gb_field_words_rank(&gb_params_fields(&count)[item],
+                               gb_prompt_text(&finder->list.filter));
+}
+
+static void search(struct gb_param_finder *finder)
+{
+    size_t count = 0;
+    (void)gb_params_fields(&count);
+    gb_list_box_search(&finder->list, (int)count, rank_field, finder);
+}
+
+static void param_finder_finish(struct gb_param_finder *finder)
+{
+    gb_list_box_finish(&finder->list);
+}
+
+static void param_finder_init(struct gb_param_finder *finder,
+                              const struct gb_params *params)
+{
+    param_finder_finish(finder);
+    finder->params = *params;
+    search(finder);
+}
+
+/* Typing, arrows and pages; false: another key. */
+static bool param_finder_handle(struct gb_param_finder *finder,
+                                const struct gb_term_event *event)
+{
+    if (event->kind == GB_TERM_KEY && event->code == '\t') {
+        gb_list_box_go(&finder->list, 1);
+        return true;
+    }
+    const enum gb_list_box_event news = gb_list_box_handle(&finder->list, event);
+    if (news == GB_LIST_BOX_TYPED) {
+        search(finder);
+    }
+    return news != GB_LIST_BOX_OTHER;
+}
+
+/* "contact.mu   0.1   friction coefficient of sliding" */
+static void write_field(void *data, int item, struct gb_list_box_line *line)
+{
+    const struct gb_param_finder *finder = data;
+    size_t count = 0;
+    const struct gb_field *field = &gb_params_fields(&count)[item];
+    char value[GB_PARAMS_VALUE_MAX];
+    gb_params_format(&finder->params, field, value, sizeof value);
+    line->style =
+        gb_field_applies(field, &finder->params) ? GB_STYLE_PLAIN : GB_STYLE_DIM;
+    line->cell[0] = g_strdup_printf("%s.%s", field->group, field->key);
+    line->cell[1] = g_strdup(value);
+    line->cell[2] = g_strdup(field->meaning);
+}
+
+/* Meaning and synonyms of the selected parameter. */
+static void draw_words(const struct gb_param_finder *finder, const struct gb_paint *paint,
+                       int row)
+{
+    const int selected = gb_dialog_found(finder);
+    size_t count = 0;
+    if (selected < 0) {
+        gb_paint_wrap(
+            paint, row, WORDS_ROWS, GB_STYLE_WARN,
+            "no parameter has this name, symbol or meaning; ? has the glossary");
+        return;
+    }
+    const struct gb_field *field = &gb_params_fields(&count)[selected];
+    const char *words = field->words != NULL ? field->words : "";
+    char *text = g_strdup_printf(
+        "%s%s%s%s", field->meaning, *words != '\0' ? "; also: " : "", words,
+        gb_field_applies(field, &finder->params) ? "" : " (no effect on this scene)");
+    gb_paint_wrap(paint, row, WORDS_ROWS, GB_STYLE_DIM, text);
+    g_free(text);
+}
+
+static void param_finder_draw(struct gb_param_finder *finder,
+                              const struct gb_paint *paint)
+{
+    static const struct gb_list_box_look look = {
+        .columns = 3,
+        .column = {{.cols = FOUND_COLS}, {.cols = VALUE_COLS}, {.cols = 0}},
+        .write = write_field};
+    struct gb_rect rows = paint->rect;
+    rows.row += HEAD_ROWS;
+    rows.rows -= HEAD_ROWS + WORDS_ROWS;
+    const struct gb_paint inside = gb_paint_at(paint->term, rows);
+    gb_list_box_draw_filter(&finder->list, paint, 0, 0, "Name, symbol or meaning:");
+    gb_list_box_draw(&finder->list, &inside, &look, finder);
+    draw_words(finder, paint, paint->rect.rows - WORDS_ROWS);
+}
+
+int gb_dialog_found(const struct gb_param_finder *finder)
+{
+    return gb_list_box_focused(&finder->list);
+}
+
+enum { SIGNS, SHAPE, NAME, CELL, DENSITY, DIFFERENCE, COLUMNS };
+enum { FOOT_ROWS = 2 }; /* what the signs mean */
+
+static const char curve_signs[] =
+    "* pinned: stays, also with m; - hidden. ~ within, ! beyond two standard deviations. "
+    "D takes a curve off the plot, its files stay.";
+
+/* pressure_pa: typed by the user; 0: none, the usual one. */
+static void curve_list_init(struct gb_curve_list *list, const struct gb_session *session,
+                            double pressure_pa)
+{
+    *list = (struct gb_curve_list){.pressure_pa =
+                                       gb_pressure_rows_usual(session, pressure_pa)};
+}
+
+/* The run first, then the newest curve. */
+static int count_lines(const struct gb_session *session)
+{
+    return session->previous_count + (session->runner != NULL);
+}
+
+static int index_of(const struct gb_session *session, int line)
+{
+    return session->previous_count - 1 - line + (session->runner != NULL);
+}
+
+static void curve_list_navigate(struct gb_curve_list *list,
+                                const struct gb_session *session, enum gb_action action)
+{
+    gb_list_box_set_count(&list->box, count_lines(session));
+    (void)gb_list_box_navigate(&list->box, action);
+}
+
+int gb_dialog_curve(struct gb_curve_list *list, const struct gb_session *session)
+{
+    gb_list_box_set_count(&list->box, count_lines(session));
+    if (list->box.count == 0) {
+        return GB_CURVE_LIST_NONE;
+    }
+    const int index = index_of(session, list->box.focus);
+    return index < session->previous_count ? index : GB_CURVE_LIST_RUN;
+}
+
+/* Begins to type the name in focus. */
+static void curve_list_rename(struct gb_curve_list *list, struct gb_session *session)
+{
+    const int index = gb_dialog_curve(list, session);
+    if (index != GB_CURVE_LIST_NONE) {
+        gb_prompt_set(&list->prompt, gb_previous_list_label(session, index)->name);
+        list->naming = true;
+    }
+}
+
+/* Takes an event while a name is typed; false: nothing is typed, or it ends. */
+static bool curve_list_type(struct gb_curve_list *list, const struct gb_term_event *event)
+{
+    if (list->naming && event->kind == GB_TERM_KEY && event->code == GB_KEY_ESCAPE) {
+        list->naming = false;
+        return true;
+    }
+    return list->naming && gb_prompt_handle(&list->prompt, event);
+}
+
+/* A line of the list. */
+struct line {
+    struct gb_pressure_row row;
+    struct gb_curve_label label;
+    const char *name;
+    enum gb_style ink;
+};
+
+static struct line curve_list_line_of(const struct gb_session *session, int number)
+{
+    const int index = index_of(session, number);
+    if (index == session->previous_count) {
+        const struct gb_curve_label *label = &session->run_label;
+        return (struct line){gb_pressure_rows_run(session), *label,
+                             label->name[0] != '\0' ? label->name : "run on display",
+                             GB_STYLE_SERIES};
+    }
+    const struct gb_previous_curve *previous = &session->previous[index];
+    const int colour = previous->label.colour;
+    return (struct line){gb_pressure_rows_previous(session, index), previous->label,
+                         gb_previous_list_name(previous),
+                         colour > 0 ? (enum gb_style)(GB_STYLE_SERIES + colour)
+                                    : GB_STYLE_DIM};
+}
+
+/* "N 8000", "quick 1000". */
+static void write_cell(const struct gb_pressure_row *row, char *text, size_t size)
+{
+    struct gb_params small;
+    const bool quick = row->quick && gb_quick_params(row->params, &small);
+    snprintf(text, size, "%s %lld", row->quick ? "quick" : "N",
+             (long long)(quick ? small.count : row->params->count));
+}
+
+/* What a row is written from. */
+struct source {
+    const struct gb_curve_list *list;
+    const struct gb_session *session;
+};
+
+static void write_values(const struct source *source, const struct line *curve,
+                         struct gb_list_box_line *line)
+{
+    const struct gb_session *session = source->session;
+    const double pressure_pa = source->list->pressure_pa;
+    char text[24];
+    const struct gb_pressure_value value =
+        gb_pressure_rows_at(session, &curve->row, pressure_pa);
+    write_cell(&curve->row, text, sizeof text);
+    line->cell[CELL] = g_strdup(text);
+    gb_pressure_rows_write(value, text, sizeof text);
+    line->cell[DENSITY] = g_strdup(text);
+    if (curve->row.kind == GB_PRESSURE_ROW_PREVIOUS && session->runner != NULL) {
+        const struct gb_pressure_row run = gb_pressure_rows_run(session);
+        gb_pressure_rows_write_difference(&curve->row, value, &run,
+                                          gb_pressure_rows_at(session, &run, pressure_pa),
+                                          text, sizeof text);
+        line->cell[DIFFERENCE] = g_strdup(text);
+    }
+}
+
+static void write_curve(void *data, int item, struct gb_list_box_line *line)
+{
+    const struct source *source = data;
+    const struct line curve = curve_list_line_of(source->session, item);
+    const bool run = curve.row.kind == GB_PRESSURE_ROW_RUN;
+    const char marker = curve.label.marker;
+    line->style = curve.label.hidden ? GB_STYLE_DIM : GB_STYLE_PLAIN;
+    line->cell[SIGNS] = g_strdup_printf("%s%s", curve.label.pinned ? "*" : " ",
+                                        curve.label.hidden ? "-" : "");
+    line->cell[SHAPE] = g_strdup_printf("%c", run || marker == '\0' ? '>' : marker);
+    line->ink[SHAPE] = run ? GB_STYLE_SERIES : (int)curve.ink;
+    line->cell[NAME] = g_strdup(curve.name);
+    write_values(source, &curve, line);
+}
+
+static void curve_list_draw(struct gb_curve_list *list, const struct gb_session *session,
+                            const struct gb_paint *paint)
+{
+    char pressure[24];
+    struct source source = {list, session};
+    gb_units_format_short(list->pressure_pa, GB_DIM_PRESSURE, 4, pressure,
+                          sizeof pressure);
+    const struct gb_list_box_look look = {
+        .columns = COLUMNS,
+        .column = {[SIGNS] = {.cols = 2, .tight = true},
+                   [SHAPE] = {.cols = 2},
+                   [NAME] = {.title = "curve", .cols = 0},
+                   [CELL] = {.title = "cell", .cols = 12, .right = true},
+                   [DENSITY] = {.title = pressure, .cols = 9, .right = true},
+                   [DIFFERENCE] = {.title = "- run ", .cols = 9, .right = true}},
+        .head = GB_STYLE_BOLD,
+        .titled = true,
+        .empty = "no curve yet: r starts a run",
+        .empty_style = GB_STYLE_DIM,
+        .write = write_curve};
+    struct gb_rect rect = paint->rect;
+    rect.rows -= FOOT_ROWS;
+    const struct gb_paint rows = gb_paint_at(paint->term, rect);
+    gb_list_box_set_count(&list->box, count_lines(session));
+    gb_list_box_draw(&list->box, &rows, &look, &source);
+    if (list->naming) {
+        const struct gb_rect name = gb_list_box_cell(&list->box, &rows, &look, NAME);
+        gb_prompt_draw(&list->prompt, &rows, name.row, name.col, name.cols);
+    }
+    gb_paint_wrap(paint, paint->rect.rows - FOOT_ROWS, FOOT_ROWS, GB_STYLE_DIM,
+                  curve_signs);
+}
 
 /* Dialogs: one form for each kind (list, line, question, cards, picture), and the dialog that
  * is open. */
@@ -454,12 +743,12 @@ static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
     const struct gb_paint frame =
         dialog_box(screen, HELP_ROWS, HELP_COLS, dialog->type->title);
     const struct gb_paint paint = dialog_box_inside(&frame);
-    gb_help_list_draw(&dialog->help, &paint);
+    gb_keys_help_draw(&dialog->help, &paint);
 }
 
 static bool edit_help(struct gb_dialog *dialog, const struct gb_term_event *event)
 {
-    return gb_help_list_handle(&dialog->help, event);
+    return gb_keys_help_handle(&dialog->help, event);
 }
 
 /* Lines by which a key moves in a list with this many lines per page. */
@@ -521,12 +810,12 @@ static void draw_curves(struct gb_dialog *dialog, const struct gb_paint *screen)
     struct gb_paint paint = dialog_box_inside(&frame);
     draw_note(dialog, &paint, paint.rect.rows - note, note);
     paint.rect.rows -= note;
-    gb_curve_list_draw(&dialog->curves, dialog->session, &paint);
+    curve_list_draw(&dialog->curves, dialog->session, &paint);
 }
 
 static bool edit_curves(struct gb_dialog *dialog, const struct gb_term_event *event)
 {
-    return gb_curve_list_type(&dialog->curves, event);
+    return curve_list_type(&dialog->curves, event);
 }
 
 static enum gb_dialog_result go_in_curves(struct gb_dialog *dialog, int code)
@@ -537,10 +826,10 @@ static enum gb_dialog_result go_in_curves(struct gb_dialog *dialog, int code)
         return action == GB_ACTION_ENTER ? GB_DIALOG_ACCEPTED : GB_DIALOG_OPEN;
     }
     if (action == GB_ACTION_ENTER) {
-        gb_curve_list_rename(list, dialog->session);
+        curve_list_rename(list, dialog->session);
         return GB_DIALOG_OPEN;
     }
-    gb_curve_list_navigate(list, dialog->session, action);
+    curve_list_navigate(list, dialog->session, action);
     return GB_DIALOG_OPEN;
 }
 
@@ -585,12 +874,12 @@ static void draw_finder(struct gb_dialog *dialog, const struct gb_paint *screen)
     const struct gb_paint frame =
         dialog_box(screen, rows, FINDER_COLS, dialog->type->title);
     const struct gb_paint paint = dialog_box_inside(&frame);
-    gb_param_finder_draw(&dialog->finder, &paint);
+    param_finder_draw(&dialog->finder, &paint);
 }
 
 static bool edit_finder(struct gb_dialog *dialog, const struct gb_term_event *event)
 {
-    return gb_param_finder_handle(&dialog->finder, event);
+    return param_finder_handle(&dialog->finder, event);
 }
 
 const struct gb_dialog_form gb_dialog_forms_finder = {draw_finder, edit_finder,
@@ -777,7 +1066,7 @@ void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
     if (type->form == &gb_dialog_forms_command) {
         dialog->text = g_strdup(content);
     } else if (type->form == &gb_dialog_forms_help) {
-        gb_help_list_init(&dialog->help);
+        gb_keys_help_init(&dialog->help);
     } else if (type->form == &gb_dialog_forms_question) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", content);
     } else {
@@ -807,7 +1096,7 @@ void gb_dialog_show_finder(struct gb_dialog *dialog, const struct gb_dialog_type
 {
     gb_dialog_close(dialog);
     dialog->type = type;
-    gb_param_finder_init(&dialog->finder, params);
+    param_finder_init(&dialog->finder, params);
 }
 
 void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
@@ -852,7 +1141,7 @@ void gb_dialog_show_curves(struct gb_dialog *dialog, const struct gb_dialog_type
     gb_dialog_close(dialog);
     dialog->type = type;
     dialog->session = session;
-    gb_curve_list_init(&dialog->curves, session, typed_pa);
+    curve_list_init(&dialog->curves, session, typed_pa);
 }
 
 bool gb_dialog_takes_keys(const struct gb_dialog *dialog)
@@ -865,7 +1154,7 @@ void gb_dialog_close(struct gb_dialog *dialog)
 {
     gb_pixels_png_finish(&dialog->pixels);
     gb_preset_browser_finish(&dialog->browser);
-    gb_param_finder_finish(&dialog->finder);
+    param_finder_finish(&dialog->finder);
     gb_leg_editor_finish(&dialog->legs);
     g_free(dialog->text);
     memset(dialog, 0, sizeof *dialog);
@@ -883,7 +1172,7 @@ static bool closes(const struct gb_dialog *dialog, int code)
 {
     struct gb_key key;
     return gb_keys_find(code, GB_KEY_EVERYWHERE, &key) &&
-           (key.action == GB_ACTION_BACK || key.command == gb_screen_commands_quit ||
+           (key.action == GB_ACTION_BACK || key.command == gb_pane_commands_quit ||
             key.command == dialog->type->opened_by);
 }
 

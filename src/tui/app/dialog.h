@@ -1,16 +1,36 @@
 #ifndef GB_TUI_APP_DIALOG_H
 #define GB_TUI_APP_DIALOG_H
 
-#include "tui/app/curve_list.h"
-#include "tui/app/help_list.h"
+#include "greenbody/params.h"
 #include "tui/app/keys.h"
+#include "tui/app/leg_editor.h"
 #include "tui/app/preset_browser.h"
-#include "tui/legs/leg_editor.h"
 #include "tui/panel/list_box.h"
-#include "tui/panel/param_finder.h"
 #include "tui/panel/prompt.h"
+#include "tui/session/session.h"
 #include "tui/term/paint.h"
 #include "tui/term/pixels.h"
+
+struct gb_param_finder {
+    struct gb_list_box list; /* of rows of the field table */
+    struct gb_params params; /* whose values are shown */
+};
+
+/* Row of the field table of the selected parameter; -1: nothing matches. */
+int gb_dialog_found(const struct gb_param_finder *finder);
+
+/* The run and the previous curves, a line each, with their density at one pressure. */
+struct gb_curve_list {
+    struct gb_list_box box;
+    bool naming; /* the name in focus is typed */
+    struct gb_prompt prompt;
+    double pressure_pa; /* of the densities */
+};
+
+enum { GB_CURVE_LIST_RUN = -1, GB_CURVE_LIST_NONE = -2 };
+
+/* Index of the previous curve in focus, or one of these. */
+int gb_dialog_curve(struct gb_curve_list *list, const struct gb_session *session);
 
 struct gb_dialog;
 struct gb_session;

@@ -8,7 +8,7 @@
 const struct gb_dialog_type gb_dialogs_help = {
     .form = &gb_dialog_forms_help,
     .title = "Keys and glossary (type to filter, Esc closes)",
-    .opened_by = gb_screen_commands_help,
+    .opened_by = gb_pane_commands_help,
 };
 
 const struct gb_dialog_type gb_dialogs_open = {
@@ -54,8 +54,8 @@ const struct gb_dialog_type gb_dialogs_what_if = {
     .form = &gb_dialog_forms_prompt,
     .title = "What-if: continue with other values (Esc cancels)",
     .label = "key=value; ... (legs of a path: leg then leg):",
-    .opened_by = gb_run_commands_what_if,
-    .accept = gb_run_commands_accept_what_if,
+    .opened_by = gb_file_commands_what_if,
+    .accept = gb_file_commands_accept_what_if,
 };
 
 const struct gb_dialog_type gb_dialogs_find = {
@@ -140,9 +140,9 @@ const struct gb_dialog_type gb_dialogs_quit = {
     .title = "Quit?",
     .yes = "quit",
     .no = "stay",
-    .opened_by = gb_screen_commands_quit,
-    .press = gb_screen_commands_press_quit,
-    .accept = gb_screen_commands_accept_quit,
+    .opened_by = gb_pane_commands_quit,
+    .press = gb_pane_commands_press_quit,
+    .accept = gb_pane_commands_accept_quit,
 };
 
 const struct gb_dialog_type gb_dialogs_cost = {
@@ -150,8 +150,8 @@ const struct gb_dialog_type gb_dialogs_cost = {
     .title = "A long run: start it?",
     .yes = "start",
     .no = "cancel",
-    .accept = gb_run_commands_accept_cost,
-    .decline = gb_run_commands_decline_cost,
+    .accept = gb_file_commands_accept_cost,
+    .decline = gb_file_commands_decline_cost,
 };
 
 const struct gb_dialog_type gb_dialogs_results = {

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 #include "io/store.h"
-#include "many/sweep/param_sweep.h"
+#include "many/param_sweep.h"
 #include "scene/field/keep_points.h"
 #include "scene/loading_kind.h"
 #include "study/calibrate/calibration.h"
@@ -41,7 +41,7 @@ void gb_job_commands_result_show(struct gb_app *app, const struct gb_key *key)
         gb_results_make(&session->results, session, GB_RESULTS_MODULI);
     }
     if (session->results.count == 0) {
-        gb_screen_commands_message(
+        gb_pane_commands_message(
             app, GB_STYLE_WARN,
             "no result yet: C, R, Y, s and x make one, and view E with a curve");
         return;
@@ -66,7 +66,7 @@ void gb_job_commands_result_follow(struct gb_app *app)
         char text[96];
         snprintf(text, sizeof text, "%s: the result is there, W shows it",
                  gb_results_at(results, 0)->kind->title);
-        gb_screen_commands_message(app, GB_STYLE_GOOD, text);
+        gb_pane_commands_message(app, GB_STYLE_GOOD, text);
     }
 }
 
@@ -98,7 +98,7 @@ void gb_job_commands_result_accept(struct gb_app *app)
     if (app->screen.message.text[0] == '\0') {
         char text[400];
         snprintf(text, sizeof text, "used: %.300s; u undoes", told);
-        gb_screen_commands_message(app, GB_STYLE_GOOD, text);
+        gb_pane_commands_message(app, GB_STYLE_GOOD, text);
     }
     g_free(told);
 }
@@ -142,7 +142,7 @@ static bool is_own(int code)
         return true;
     default:
         return gb_keys_find(code, GB_KEY_EVERYWHERE, &key) &&
-               (key.command == gb_screen_commands_quit ||
+               (key.command == gb_pane_commands_quit ||
                 key.command == gb_job_commands_result_show);
     }
 }
@@ -175,7 +175,7 @@ static void job_commands_stability_open(struct gb_app *app)
     struct gb_error err = {0};
     if (!gb_loading_kind_check_cell(gb_session_params(&app->screen.session), "stability",
                                     &err)) {
-        gb_screen_commands_message(app, GB_STYLE_WARN, err.text);
+        gb_pane_commands_message(app, GB_STYLE_WARN, err.text);
         return;
     }
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_stability, "");
@@ -187,10 +187,10 @@ void gb_job_commands_chart_open(struct gb_app *app, const struct gb_key *key)
     (void)key;
     if (gb_job_chart_runs(&session->child)) {
         gb_job_stop(&session->child);
-        gb_screen_commands_message(app, GB_STYLE_PLAIN,
-                                   session->chart_job.stability
-                                       ? "the measurement is stopped"
-                                       : "the chart is stopped");
+        gb_pane_commands_message(app, GB_STYLE_PLAIN,
+                                 session->chart_job.stability
+                                     ? "the measurement is stopped"
+                                     : "the chart is stopped");
         return;
     }
     if (app->screen.plot.view->need == GB_VIEW_NEEDS_STABILITY) {
@@ -323,8 +323,8 @@ static void chart_commands_start(struct gb_app *app, const struct answer *answer
         app->screen.plot.view = gb_views_with(GB_VIEW_NEEDS_CHART);
         app->screen.plot.setting_on = NULL;
         app->screen.focus = GB_PANE_PLOT;
-        gb_screen_commands_message(app, GB_STYLE_PLAIN,
-                                   "measuring the settings; X again stops");
+        gb_pane_commands_message(app, GB_STYLE_PLAIN,
+                                 "measuring the settings; X again stops");
     }
 }
 
@@ -406,8 +406,8 @@ static void start(struct gb_app *app, char *points)
         app->screen.plot.view = gb_views_with(GB_VIEW_NEEDS_STABILITY);
         app->screen.plot.setting_on = NULL;
         app->screen.focus = GB_PANE_PLOT;
-        gb_screen_commands_message(app, GB_STYLE_PLAIN,
-                                   "measuring the methods; X again stops");
+        gb_pane_commands_message(app, GB_STYLE_PLAIN,
+                                 "measuring the methods; X again stops");
     }
 }
 
@@ -447,8 +447,8 @@ void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key)
 {
     (void)key;
     if (app->screen.session.measured == NULL) {
-        gb_screen_commands_message(
-            app, GB_STYLE_WARN, "a calibration needs measured data: e loads a CSV file");
+        gb_pane_commands_message(app, GB_STYLE_WARN,
+                                 "a calibration needs measured data: e loads a CSV file");
         return;
     }
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_calibrate, default_keys);
@@ -462,17 +462,17 @@ void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key)
     (void)key;
     if (gb_job_moduli_runs(&session->moduli, &session->child)) {
         gb_job_moduli_stop(&session->moduli, &session->child);
-        gb_screen_commands_message(app, GB_STYLE_PLAIN, "the measurement is stopped");
+        gb_pane_commands_message(app, GB_STYLE_PLAIN, "the measurement is stopped");
         return;
     }
     if (!gb_job_moduli_start(&session->moduli, session->runner,
                              gb_session_run_is_live(session), &session->child, &err)) {
-        gb_screen_commands_message(app, GB_STYLE_WARN, err.text);
+        gb_pane_commands_message(app, GB_STYLE_WARN, err.text);
         return;
     }
     app->screen.plot.view = gb_views_find("S");
-    gb_screen_commands_message(app, GB_STYLE_PLAIN,
-                               "measuring the stored states; Y again stops");
+    gb_pane_commands_message(app, GB_STYLE_PLAIN,
+                             "measuring the stored states; Y again stops");
 }
 
 /* "0.002@100MPa"; NULL or blank: none. */
@@ -553,8 +553,8 @@ void gb_job_commands_accept_calibrate(struct gb_app *app)
                            read ? session->reading : NULL,
                            NULL};
     if (job_commands_start(app, "calibration", GB_CHILD_COMMAND_LONG, words)) {
-        gb_screen_commands_message(app, GB_STYLE_PLAIN,
-                                   "calibration started: progress among the events");
+        gb_pane_commands_message(app, GB_STYLE_PLAIN,
+                                 "calibration started: progress among the events");
     }
     g_free(keys);
 }

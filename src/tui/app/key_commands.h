@@ -54,25 +54,25 @@ void gb_view_commands_accept_pressure(struct gb_app *app);
 /* The table of densities, columns separated by tabs; g_free. */
 char *gb_view_commands_densities_text(struct gb_app *app);
 
-/* screen_commands.c: the clipboard. */
-void gb_screen_commands_copy(struct gb_app *app, const struct gb_key *key);
+/* pane_commands.c: the clipboard. */
+void gb_pane_commands_copy(struct gb_app *app, const struct gb_key *key);
 
-/* run_commands.c: run and quick cell. */
-void gb_run_commands_start(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_pause(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_freeze(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_take_over(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_auto_start(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_drop_changes(struct gb_app *app, const struct gb_key *key);
-void gb_run_commands_accept_what_if(struct gb_app *app);
-void gb_run_commands_accept_cost(struct gb_app *app);
-void gb_run_commands_decline_cost(struct gb_app *app);
+/* file_commands.c: run and quick cell. */
+void gb_file_commands_start(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_pause(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_freeze(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_take_over(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_auto_start(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_what_if(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_drop_changes(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_accept_what_if(struct gb_app *app);
+void gb_file_commands_accept_cost(struct gb_app *app);
+void gb_file_commands_decline_cost(struct gb_app *app);
 /* Starts an opened scene: the quick cell first, except for scenes that are fast
  * themselves. */
-void gb_run_commands_start_scene(struct gb_app *app);
+void gb_file_commands_start_scene(struct gb_app *app);
 /* Starts the full cell when its quick cell has finished; an expensive one waits for r. */
-void gb_run_commands_follow_quick(struct gb_app *app);
+void gb_file_commands_follow_quick(struct gb_app *app);
 
 /* file_commands.c: presets, materials, measured data, pictures, reports. */
 void gb_file_commands_save(struct gb_app *app, const struct gb_key *key);
@@ -115,19 +115,18 @@ bool gb_job_commands_result_press(struct gb_app *app, const struct gb_term_event
 /* Shows the result of a job that has ended. */
 void gb_job_commands_result_follow(struct gb_app *app);
 
-/* screen_commands.c: mouse, theme, help, quitting. */
-void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key);
-void gb_screen_commands_theme(struct gb_app *app, const struct gb_key *key);
-void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key);
-void gb_screen_commands_help(struct gb_app *app, const struct gb_key *key);
-void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key);
-void gb_screen_commands_accept_quit(struct gb_app *app);
-bool gb_screen_commands_press_quit(struct gb_app *app, const struct gb_term_event *event);
+/* pane_commands.c: mouse, theme, help, quitting. */
+void gb_pane_commands_mouse(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_theme(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_repaint(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_help(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_quit(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_accept_quit(struct gb_app *app);
+bool gb_pane_commands_press_quit(struct gb_app *app, const struct gb_term_event *event);
 /* Opens the question before quitting with a live run. */
-void gb_screen_commands_ask_quit(struct gb_app *app);
-void gb_screen_commands_leave(struct gb_app *app, int status);
+void gb_pane_commands_ask_quit(struct gb_app *app);
+void gb_pane_commands_leave(struct gb_app *app, int status);
 /* Sets the text of the message line. */
-void gb_screen_commands_message(struct gb_app *app, enum gb_style style,
-                                const char *text);
+void gb_pane_commands_message(struct gb_app *app, enum gb_style style, const char *text);
 
 #endif

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "tui/app/key_commands.h"
+#include "tui/panel/list_box.h"
+#include "tui/term/paint.h"
 #include "tui/view/views.h"
 
 enum { CTRL_L = 'L' & 31, CTRL_R = 'R' & 31 };
@@ -166,49 +168,49 @@ static const struct gb_key before_views[] = {
      "run",
      "run the parameters shown; a long run asks",
      GB_KEY_ANY_PANE,
-     gb_run_commands_start,
+     gb_file_commands_start,
      GB_ACTION_NONE},
     {{'p'},
      "p",
      "pause",
      "pause or resume the engine",
      GB_KEY_ANY_PANE,
-     gb_run_commands_pause,
+     gb_file_commands_pause,
      GB_ACTION_NONE},
     {{' '},
      "Space",
      "freeze",
      "freeze the view; the engine continues",
      GB_KEY_ANY_PANE,
-     gb_run_commands_freeze,
+     gb_file_commands_freeze,
      GB_ACTION_NONE},
     {{'f'},
      "f",
      "what-if",
      "what-if: continue the run with other values",
      GB_KEY_ANY_PANE,
-     gb_run_commands_what_if,
+     gb_file_commands_what_if,
      GB_ACTION_NONE},
     {{'D'},
      "D",
      NULL,
      "drop the changes that a what-if has left",
      GB_KEY_ANY_PANE,
-     gb_run_commands_drop_changes,
+     gb_file_commands_drop_changes,
      GB_ACTION_NONE},
     {{'a'},
      "a",
      NULL,
      "full cell after the quick one: automatic, or r",
      GB_KEY_ANY_PANE,
-     gb_run_commands_auto_start,
+     gb_file_commands_auto_start,
      GB_ACTION_NONE},
     {{'t'},
      "t",
      NULL,
      "take over the attached run",
      GB_KEY_ANY_PANE,
-     gb_run_commands_take_over,
+     gb_file_commands_take_over,
      GB_ACTION_NONE},
 };
 
@@ -296,7 +298,7 @@ static const struct gb_key after_views[] = {
      "copy",
      "copy parameter, values at the cursor, folder",
      GB_KEY_ANY_PANE | GB_KEY_COPIED,
-     gb_screen_commands_copy,
+     gb_pane_commands_copy,
      GB_ACTION_NONE},
     {{'e'},
      "e",
@@ -443,35 +445,35 @@ static const struct gb_key after_views[] = {
      NULL,
      "colours: next theme, which is remembered",
      GB_KEY_ANY_PANE,
-     gb_screen_commands_theme,
+     gb_pane_commands_theme,
      GB_ACTION_NONE},
     {{'M'},
      "M",
      NULL,
      "mouse on or off (Shift-drag selects text)",
      GB_KEY_ANY_PANE,
-     gb_screen_commands_mouse,
+     gb_pane_commands_mouse,
      GB_ACTION_NONE},
     {{CTRL_L},
      "^L",
      NULL,
      "repaint the screen",
      GB_KEY_ANY_PANE,
-     gb_screen_commands_repaint,
+     gb_pane_commands_repaint,
      GB_ACTION_NONE},
     {{'?', KEY_F(1)},
      "? F1",
      "help",
      "keys and glossary, filtered by typing",
      GB_KEY_ANY_PANE,
-     gb_screen_commands_help,
+     gb_pane_commands_help,
      GB_ACTION_NONE},
     {{'q', KEY_F(10)},
      "q F10",
      "quit",
      "quit; asks while a run is live",
      GB_KEY_ALWAYS,
-     gb_screen_commands_quit,
+     gb_pane_commands_quit,
      GB_ACTION_NONE},
 };
 
@@ -579,4 +581,176 @@ enum gb_action gb_keys_action(int code)
 {
     struct gb_key key;
     return gb_keys_find(code, GB_KEY_EVERYWHERE, &key) ? key.action : GB_ACTION_NONE;
+}
+
+/* The help: the keys in groups and the glossary (docs/glossary.md), as far as they contain
+ * the words that are typed. */
+
+enum { KEY_COLS = 10, INDENT = 2, HEAD_ROWS = 2 };
+
+static const struct gb_help_word glossary[] = {
+#include "tui/glossary_rows.inc"
+};
+
+const struct gb_help_word *gb_keys_glossary(size_t *count)
+{
+    *count = G_N_ELEMENTS(glossary);
+    return glossary;
+}
+
+/* A line of the list, with a name before the text or above it. */
+struct line {
+    char *name, *text; /* owned; NULL: none */
+    enum gb_style style;
+    int col; /* of the text */
+};
+
+struct lines {
+    GPtrArray *line;
+    const struct gb_paint *paint;
+    char **wanted;       /* words of the filter, lower case */
+    const char *heading; /* that comes before the next line; NULL: none */
+};
+
+static void free_line(void *data)
+{
+    struct line *line = data;
+    g_free(line->name);
+    g_free(line->text);
+    g_free(line);
+}
+
+static void add(struct lines *lines, const char *name, const char *text,
+                enum gb_style style, int col)
+{
+    struct line *line = g_new0(struct line, 1);
+    *line = (struct line){g_strdup(name), g_strdup(text), style, col};
+    g_ptr_array_add(lines->line, line);
+}
+
+/* A heading is added when something stands below it. */
+static void add_heading(struct lines *lines)
+{
+    if (lines->heading != NULL) {
+        if (lines->line->len > 0) {
+            add(lines, NULL, "", GB_STYLE_PLAIN, 0);
+        }
+        add(lines, NULL, lines->heading, GB_STYLE_TITLE, 0);
+        lines->heading = NULL;
+    }
+}
+
+/* The text broken at blanks from column `col` on; the name stands in the first line. */
+static void add_wrapped(struct lines *lines, const char *name, const char *text, int col)
+{
+    const int room = MAX(lines->paint->rect.cols - col, 8);
+    char **word = g_strsplit(text, " ", -1);
+    GString *line = g_string_new(NULL);
+    add_heading(lines);
+    for (size_t i = 0; word[i] != NULL; i++) {
+        if (line->len > 0 &&
+            gb_paint_width(line->str) + 1 + gb_paint_width(word[i]) > room) {
+            add(lines, name, line->str, GB_STYLE_PLAIN, col);
+            name = NULL;
+            g_string_truncate(line, 0);
+        }
+        g_string_append_printf(line, "%s%s", line->len > 0 ? " " : "", word[i]);
+    }
+    add(lines, name, line->str, GB_STYLE_PLAIN, col);
+    g_string_free(line, TRUE);
+    g_strfreev(word);
+}
+
+/* All words of the filter stand in the texts. */
+static bool wanted(const struct lines *lines, const char *name, const char *text,
+                   const char *heading)
+{
+    char *joined = g_strdup_printf("%s %s %s", name, text, heading);
+    const bool found = gb_list_box_matches(lines->wanted, joined);
+    g_free(joined);
+    return found;
+}
+
+static void add_keys(struct lines *lines)
+{
+    const char *group = "";
+    for (size_t i = 0; i < gb_keys_count(); i++) {
+        const struct gb_key key = gb_keys_at(i);
+        const char *heading = gb_keys_heading(i);
+        if (heading != NULL) {
+            group = lines->heading = heading;
+        }
+        if (wanted(lines, key.name, key.help, group)) {
+            add_wrapped(lines, key.name, key.help, KEY_COLS);
+        }
+    }
+}
+
+static void add_glossary(struct lines *lines)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(glossary); i++) {
+        const struct gb_help_word *entry = &glossary[i];
+        if (entry->word == NULL) {
+            lines->heading = entry->meaning;
+        } else if (wanted(lines, entry->word, entry->meaning, "glossary")) {
+            add_heading(lines);
+            add(lines, NULL, entry->word, GB_STYLE_BOLD, 0);
+            add_wrapped(lines, NULL, entry->meaning, INDENT);
+        }
+    }
+}
+
+void gb_keys_help_init(struct gb_help_list *list)
+{
+    *list = (struct gb_help_list){.box = {.unfocused = true}};
+}
+
+bool gb_keys_help_handle(struct gb_help_list *list, const struct gb_term_event *event)
+{
+    if ((event->kind == GB_TERM_TEXT && event->code == '?') ||
+        !gb_prompt_handle(&list->box.filter, event)) {
+        return false;
+    }
+    list->box.top = 0;
+    return true;
+}
+
+static void write_line(void *data, int item, struct gb_list_box_line *out)
+{
+    const struct lines *lines = data;
+    const struct line *line = g_ptr_array_index(lines->line, (guint)item);
+    out->style = line->style;
+    if (line->col < KEY_COLS) { /* from the left edge, or indented */
+        out->whole = g_strdup_printf("%*s%s", line->col, "", line->text);
+    } else {
+        out->cell[0] = g_strdup(line->name);
+        out->ink[0] = GB_STYLE_BOLD;
+        out->cell[1] = g_strdup(line->text);
+    }
+}
+
+void gb_keys_help_draw(struct gb_help_list *list, const struct gb_paint *paint)
+{
+    static const struct gb_list_box_look look = {
+        .columns = 2,
+        .column = {{.cols = KEY_COLS}, {.cols = 0}},
+        .empty = "no key and no word of the glossary has this",
+        .empty_style = GB_STYLE_WARN,
+        .write = write_line};
+    char *typed = g_utf8_casefold(gb_prompt_text(&list->box.filter), -1);
+    struct lines lines = {.line = g_ptr_array_new_with_free_func(free_line),
+                          .paint = paint,
+                          .wanted = g_strsplit(typed, " ", -1)};
+    struct gb_rect rect = paint->rect;
+    rect.row += HEAD_ROWS;
+    rect.rows -= HEAD_ROWS;
+    const struct gb_paint rows = gb_paint_at(paint->term, rect);
+    add_keys(&lines);
+    add_glossary(&lines);
+    gb_list_box_set_count(&list->box, (int)lines.line->len);
+    gb_list_box_draw_filter(&list->box, paint, 0, 0, "Filter:");
+    gb_list_box_draw(&list->box, &rows, &look, &lines);
+    g_strfreev(lines.wanted);
+    g_free(typed);
+    g_ptr_array_free(lines.line, TRUE);
 }

@@ -6,6 +6,7 @@
 
 #include "tui/app/layout.h"
 #include "tui/panel/list_box.h"
+#include "tui/term/paint.h"
 
 struct gb_app;
 
@@ -60,5 +61,26 @@ bool gb_keys_find(int code, int scope, struct gb_key *key);
 
 /* Navigation action of a curses key code. */
 enum gb_action gb_keys_action(int code);
+
+/* The keys in groups and the glossary (docs/glossary.md), as far as they contain the words
+ * that are typed. */
+struct gb_help_list {
+    struct gb_list_box box;
+};
+
+void gb_keys_help_init(struct gb_help_list *list);
+
+/* Typing filters; false: another key. */
+bool gb_keys_help_handle(struct gb_help_list *list, const struct gb_term_event *event);
+
+/* Draws the lines that are in view. */
+void gb_keys_help_draw(struct gb_help_list *list, const struct gb_paint *paint);
+
+/* Entries of the glossary; the word is NULL in a heading. */
+struct gb_help_word {
+    const char *word, *meaning;
+};
+
+const struct gb_help_word *gb_keys_glossary(size_t *count);
 
 #endif

@@ -230,7 +230,7 @@ static void draw_preview(const struct gb_preset_browser *browser,
     row += gb_paint_wrap(paint, row, 2, GB_STYLE_PLAIN, browser->told);
     row += 1 + gb_paint_wrap(paint, row, MAX(paint->rect.rows / 3, 1), GB_STYLE_DIM,
                              browser->head);
-    gb_params_diff_describe(params, &browser->base, difference, sizeof difference);
+    gb_previous_diff_text(params, &browser->base, difference, sizeof difference);
     snprintf(text, sizeof text, "Differs from %s:", browser->base_name);
     row += gb_paint_wrap(paint, row, 1, GB_STYLE_PLAIN, text);
     gb_paint_wrap(paint, row, paint->rect.rows - row, GB_STYLE_CHANGED, difference);

@@ -106,12 +106,12 @@ static void describe_run(struct gb_screen *screen, struct gb_message *message)
 static void draw_events(struct gb_screen *screen, const struct gb_paint *paint,
                         enum gb_paint_focus focus)
 {
-    gb_panel_events_draw(&screen->events, paint, &screen->session, focus);
+    gb_panel_state_events_draw(&screen->events, paint, &screen->session, focus);
 }
 
 static void navigate_events(struct gb_screen *screen, enum gb_action action)
 {
-    gb_panel_events_navigate(&screen->events, &screen->session, action);
+    gb_panel_state_events_navigate(&screen->events, &screen->session, action);
 }
 
 /* The newest line shown. */
@@ -147,8 +147,8 @@ static void draw_header(struct gb_screen *screen)
     const struct gb_session_shown shown = gb_session_shown(session);
     if (shown.quick) {
         style = GB_STYLE_SERIES;
-        word = gb_quick_cell_live(&session->quick_cell) ? "\u25b6 quick cell"
-                                                        : "\u2713 quick cell";
+        word = gb_session_quick_cell_live(&session->quick_cell) ? "\u25b6 quick cell"
+                                                                : "\u2713 quick cell";
     } else if (shown.curve != NULL) {
         word = gb_panel_state_word(session->run_state, session->now.error.text, &style);
     }

@@ -23,7 +23,7 @@ static int focused(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
     gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", "");
-    return gb_curve_list_focused(&dialog->curves, &app->screen.session);
+    return gb_dialog_curve(&dialog->curves, &app->screen.session);
 }
 
 static void refuse(struct gb_app *app, const char *text)

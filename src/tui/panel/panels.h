@@ -4,9 +4,9 @@
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 #include "tui/panel/list_box.h"
+#include "tui/panel/plot.h"
 #include "tui/panel/prompt.h"
-#include "tui/plot/plot.h"
-#include "tui/plot/sphere_shading.h"
+#include "tui/panel/sphere_shading.h"
 #include "tui/session/results.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
@@ -198,10 +198,13 @@ struct gb_panel_events {
     int page;
 };
 
-void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
-                          const struct gb_session *session, enum gb_paint_focus focus);
-void gb_panel_events_navigate(struct gb_panel_events *panel,
-                              const struct gb_session *session, enum gb_action action);
+void gb_panel_state_events_draw(struct gb_panel_events *panel,
+                                const struct gb_paint *paint,
+                                const struct gb_session *session,
+                                enum gb_paint_focus focus);
+void gb_panel_state_events_navigate(struct gb_panel_events *panel,
+                                    const struct gb_session *session,
+                                    enum gb_action action);
 
 /* The next value of a parameter upwards (direction 1) or downwards (-1), as text of a
  * preset.  Numbers change by 4 to 10 % and keep their unit, choices are cyclic, a seed

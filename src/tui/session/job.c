@@ -25,7 +25,7 @@
 #include "scene/loading_kind.h"
 #include "scene/tolerances.h"
 #include "study/chart/chart.h"
-#include "tui/watch/runset_view.h"
+#include "tui/session/runset_view.h"
 
 /* Jobs in the background.  A job is a command of this program as a child process; what it
  * writes is read while it grows: moduli, the chart of settings, stability, replicas. */

@@ -10,7 +10,7 @@
 #include "run/moduli/moduli_states.h"
 #include "runner/runner.h"
 #include "study/chart/chart.h"
-#include "tui/watch/runset_view.h"
+#include "tui/session/runset_view.h"
 
 enum { GB_CHILD_COMMAND_LINE = 256 };
 

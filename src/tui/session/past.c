@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "io/preset.h"
-#include "tui/session/params_diff.h"
+#include "tui/session/previous.h"
 
 /* Parameter sets in the order of their changes, for undo and redo. */
 
@@ -14,7 +14,7 @@
 static bool same(const struct gb_params *a, const struct gb_params *b)
 {
     return memcmp(a, b, sizeof *a) == 0 ||
-           (gb_params_diff_count(a, b) == 0 && strcmp(a->title, b->title) == 0);
+           (gb_previous_diff_count(a, b) == 0 && strcmp(a->title, b->title) == 0);
 }
 
 static void forget(struct gb_param_steps *steps, int from, int to)
@@ -86,7 +86,7 @@ bool gb_past_runs_take(struct gb_kept_runs *kept, const struct gb_params *params
 {
     for (int i = kept->count - 1; i >= 0; i--) {
         if (kept->run[i]->quick == quick &&
-            gb_params_diff_count(&kept->run[i]->params, params) == 0) {
+            gb_previous_diff_count(&kept->run[i]->params, params) == 0) {
             *out = *kept->run[i];
             remove_at(kept, i);
             return true;

@@ -17,7 +17,7 @@
 #include "greenbody/params.h"
 #include "io/preset.h"
 #include "io/runs/run_line.h"
-#include "many/lab/compaction_data.h"
+#include "many/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 #include "scene/tolerances.h"
 #include "study/calibrate/calibration.h"
@@ -468,7 +468,7 @@ static void offer_changes(struct gb_result_card *card, const struct gb_session *
     struct gb_params *changed = g_memdup2(own, sizeof *own);
     gb_job_chart_csv_apply(session->chart, session->chart->chosen, changed);
     for (size_t i = 0; i < count; i++) {
-        if (!gb_params_diff_same(own, changed, &field[i])) {
+        if (!gb_previous_diff_same(own, changed, &field[i])) {
             results_card_offer(card, &field[i], changed);
         }
     }

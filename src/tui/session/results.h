@@ -6,7 +6,7 @@
 
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
-#include "many/lab/compaction_data.h"
+#include "many/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 /* The last result of each kind. */

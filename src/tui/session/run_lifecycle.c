@@ -181,7 +181,7 @@ static char *describe_end(const struct gb_session *session)
                                "%.200s` continues it later. ",
                                directory);
     }
-    const bool ends = runs || gb_quick_cell_live(&session->quick_cell);
+    const bool ends = runs || gb_session_quick_cell_live(&session->quick_cell);
     return g_strdup(ends ? "The run ends and is not stored. " : "");
 }
 
@@ -193,7 +193,7 @@ gb_run_lifecycle_detaching(const struct gb_session *session)
                    ? GB_DETACH_RUN
                    : GB_DETACH_NOTHING;
     }
-    return gb_quick_cell_live(&session->quick_cell) && session->folder != NULL
+    return gb_session_quick_cell_live(&session->quick_cell) && session->folder != NULL
                ? GB_DETACH_START
                : GB_DETACH_NOTHING;
 }

@@ -8,15 +8,105 @@
 
 #include "run/change.h"
 #include "run/cost.h"
+#include "run/quick.h"
+#include "runner/runner.h"
 #include "scene/field/changes.h"
 #include "scene/loading_kind.h"
 #include "tui/session/previous.h"
 #include "tui/session/run_lifecycle.h"
-#include "tui/term/term_tty.h"
+#include "tui/term/term.h"
 
 /* The session: edited parameters, the run and its quick cell, and what is shown of them.  In
  * this order: the quick cell and the full run after it, results that are kept and shown
  * again, what-ifs, snapshots taken for display, and the session itself. */
+
+enum quick_cell_start {
+    QUICK_CELL_STARTED,
+    QUICK_CELL_NONE,  /* scenes of this kind have no quick cell */
+    QUICK_CELL_FAILED /* the engine cannot be started: err */
+};
+
+enum quick_cell_news {
+    QUICK_CELL_SAME,    /* nothing new, or the view is frozen */
+    QUICK_CELL_CHANGED, /* the view changes */
+    QUICK_CELL_ENDED    /* the quick cell has just finished; frozen views too */
+};
+
+static void quick_cell_drop(struct gb_quick_cell *quick_cell)
+{
+    gb_runner_destroy(quick_cell->runner);
+    memset(quick_cell, 0, sizeof *quick_cell);
+}
+
+/* Starts the quick cell of a scene and destroys the previous one, which stays unless the
+ * outcome is QUICK_CELL_STARTED.  Errors: those of gb_runner_create. */
+static enum quick_cell_start quick_cell_start(struct gb_quick_cell *quick_cell,
+                                              const struct gb_params *full_params,
+                                              struct gb_error *err)
+{
+    struct gb_params quick;
+    struct gb_runner *runner = NULL;
+    if (!gb_quick_params(full_params, &quick)) {
+        return QUICK_CELL_NONE;
+    }
+    if (!gb_runner_create(&runner, &quick, err)) {
+        return QUICK_CELL_FAILED;
+    }
+    quick_cell_drop(quick_cell);
+    quick_cell->full_params = *full_params;
+    quick_cell->runner = runner;
+    gb_runner_send(runner, GB_COMMAND_WATCH);
+    quick_cell->state = GB_RUN_PACKING;
+    quick_cell->now.seconds_left = -1.0;
+    return QUICK_CELL_STARTED;
+}
+
+static void take(struct gb_quick_cell *quick_cell, const struct gb_snapshot *snapshot)
+{
+    quick_cell->now = *snapshot;
+    quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
+    quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
+}
+
+/* Takes over a quick cell that has finished; there must be none. */
+static void quick_cell_adopt(struct gb_quick_cell *quick_cell,
+                             const struct gb_params *full_params,
+                             struct gb_runner *runner)
+{
+    const struct gb_snapshot *snapshot = gb_runner_snapshot(runner, NULL);
+    quick_cell->full_params = *full_params;
+    quick_cell->runner = runner;
+    quick_cell->state = snapshot->state;
+    take(quick_cell, snapshot);
+}
+
+/* Takes the published snapshot; the view stays as it is while it is frozen. */
+static enum quick_cell_news quick_cell_refresh(struct gb_quick_cell *quick_cell,
+                                               bool frozen)
+{
+    bool changed = false;
+    if (quick_cell->runner == NULL) {
+        return QUICK_CELL_SAME;
+    }
+    const bool was_live = gb_session_quick_cell_live(quick_cell);
+    const struct gb_snapshot *snapshot = gb_runner_snapshot(quick_cell->runner, &changed);
+    quick_cell->state = snapshot->state;
+    quick_cell->missed = quick_cell->missed || changed;
+    const bool shown = quick_cell->missed && !frozen;
+    if (shown) {
+        quick_cell->missed = false;
+        take(quick_cell, snapshot);
+    }
+    if (was_live && !gb_session_quick_cell_live(quick_cell)) {
+        return QUICK_CELL_ENDED;
+    }
+    return shown ? QUICK_CELL_CHANGED : QUICK_CELL_SAME;
+}
+
+bool gb_session_quick_cell_live(const struct gb_quick_cell *quick_cell)
+{
+    return quick_cell->runner != NULL && quick_cell->state <= GB_RUN_PAUSED;
+}
 
 /* The quick cell of a session, and the full run after it. */
 
@@ -29,7 +119,7 @@ static bool session_quick_matches(const struct gb_session *session,
                                   const struct gb_params *params)
 {
     return session->quick_cell.runner != NULL &&
-           gb_params_diff_count(&session->quick_cell.full_params, params) == 0;
+           gb_previous_diff_count(&session->quick_cell.full_params, params) == 0;
 }
 
 /* Whether the full run of the quick cell has been started. */
@@ -87,7 +177,7 @@ static void session_recall_keep_quick(struct gb_session *session)
         cell->runner = NULL;
         gb_past_runs_add(&session->kept, &run);
     }
-    gb_quick_cell_drop(cell);
+    quick_cell_drop(cell);
 }
 
 struct gb_params *gb_session_params(struct gb_session *session)
@@ -113,13 +203,13 @@ bool gb_session_quick_start(struct gb_session *session)
     set_engine(session,
                gb_session_run_is_live(session) ? ENGINE_WAITS : ENGINE_CONTINUES);
     session->pause_wanted = false;
-    const enum gb_quick_cell_start outcome =
-        gb_quick_cell_start(&session->quick_cell, params, &err);
-    if (outcome == GB_QUICK_CELL_FAILED) {
+    const enum quick_cell_start outcome =
+        quick_cell_start(&session->quick_cell, params, &err);
+    if (outcome == QUICK_CELL_FAILED) {
         gb_session_note(session, "quick cell: %s", err.text);
     }
-    if (outcome != GB_QUICK_CELL_STARTED) {
-        gb_quick_cell_drop(&session->quick_cell);
+    if (outcome != QUICK_CELL_STARTED) {
+        quick_cell_drop(&session->quick_cell);
         set_engine(session, ENGINE_CONTINUES);
         return false;
     }
@@ -310,8 +400,8 @@ bool gb_session_refresh(struct gb_session *session)
 {
     const enum gb_run_state before = session->quick_cell.state;
     gb_past_steps_note(&session->steps, session->preset);
-    const enum gb_quick_cell_news news =
-        gb_quick_cell_refresh(&session->quick_cell, session->frozen);
+    const enum quick_cell_news news =
+        quick_cell_refresh(&session->quick_cell, session->frozen);
     session->waiting = session->waiting && session->quick_cell.state == before;
     const bool ran = refresh_run(session);
     session_whatif_refresh(session);
@@ -329,10 +419,10 @@ bool gb_session_refresh(struct gb_session *session)
         gb_results_take(&session->results, session, session->child.name,
                         session->child.path);
     }
-    if (news == GB_QUICK_CELL_ENDED) {
+    if (news == QUICK_CELL_ENDED) {
         session_quick_finish(session);
     }
-    return news != GB_QUICK_CELL_SAME || ran || made || measured || charted;
+    return news != QUICK_CELL_SAME || ran || made || measured || charted;
 }
 
 /* Results that are kept in memory, and the steps of the parameters. */
@@ -371,7 +461,7 @@ static void session_adopt(struct gb_session *session, struct gb_runner *runner)
     }
     session->runner = runner;
     gb_runner_send(runner, GB_COMMAND_WATCH);
-    gb_term_tty_crash_set_run(gb_runner_directory(runner));
+    gb_term_crash_set_run(gb_runner_directory(runner));
     session->yielded = false;
     session->start_due = false;
     session->frozen = false;
@@ -432,7 +522,7 @@ static bool recall_quick(struct gb_session *session, const struct gb_params *par
     }
     session_quick_keep_curve(session);
     session_recall_keep_quick(session);
-    gb_quick_cell_adopt(&session->quick_cell, &run.params, run.runner);
+    quick_cell_adopt(&session->quick_cell, &run.params, run.runner);
     gb_previous_list_forget(session, params, true);
     gb_previous_list_describe(session, params);
     session_quick_finish(session);
@@ -463,12 +553,12 @@ bool gb_session_recall_step(struct gb_session *session, int direction, char *tex
         return false;
     }
     session->preset = preset;
-    const int count = gb_params_diff_count(gb_session_params(session), &before);
+    const int count = gb_previous_diff_count(gb_session_params(session), &before);
     if (count > NAMED_MAX) {
         snprintf(difference, sizeof difference, "%d parameters", count);
     } else {
-        gb_params_diff_describe(gb_session_params(session), &before, difference,
-                                sizeof difference);
+        gb_previous_diff_text(gb_session_params(session), &before, difference,
+                              sizeof difference);
     }
     snprintf(text, size, "%s: %s; %d more", verb, difference,
              gb_past_steps_left(&session->steps, direction));
@@ -512,7 +602,7 @@ void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 
 void gb_session_finish(struct gb_session *session)
 {
-    gb_quick_cell_drop(&session->quick_cell);
+    quick_cell_drop(&session->quick_cell);
     gb_runner_destroy(session->runner);
     for (int i = 0; i < session->previous_count; i++) {
         gb_previous_curve_finish(&session->previous[i]);
@@ -597,7 +687,7 @@ struct gb_session_shown gb_session_shown(const struct gb_session *session)
 {
     const struct gb_quick_cell *quick_cell = &session->quick_cell;
     if (quick_cell->runner != NULL &&
-        (gb_quick_cell_live(quick_cell) || session->runner == NULL)) {
+        (gb_session_quick_cell_live(quick_cell) || session->runner == NULL)) {
         return (struct gb_session_shown){&quick_cell->now,
                                          gb_runner_params(quick_cell->runner),
                                          gb_runner_curve(quick_cell->runner),
@@ -710,7 +800,7 @@ void gb_session_misfit(const struct gb_session *session, struct gb_measured_misf
 
 void gb_session_toggle_pause(struct gb_session *session)
 {
-    const bool quick = gb_quick_cell_live(&session->quick_cell);
+    const bool quick = gb_session_quick_cell_live(&session->quick_cell);
     if (!gb_session_live(session)) {
         return;
     }
@@ -732,7 +822,8 @@ void gb_session_toggle_freeze(struct gb_session *session)
 
 bool gb_session_live(const struct gb_session *session)
 {
-    return gb_quick_cell_live(&session->quick_cell) || gb_session_run_is_live(session);
+    return gb_session_quick_cell_live(&session->quick_cell) ||
+           gb_session_run_is_live(session);
 }
 
 bool gb_session_busy(const struct gb_session *session)
@@ -746,8 +837,8 @@ bool gb_session_busy(const struct gb_session *session)
 bool gb_session_differs(struct gb_session *session, const struct gb_field *field)
 {
     return session->runner != NULL &&
-           !gb_params_diff_same(gb_session_params(session),
-                                gb_runner_params(session->runner), field);
+           !gb_previous_diff_same(gb_session_params(session),
+                                  gb_runner_params(session->runner), field);
 }
 
 int gb_session_changes(struct gb_session *session)

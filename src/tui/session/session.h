@@ -10,8 +10,21 @@
 #include "tui/session/job.h"
 #include "tui/session/past.h"
 #include "tui/session/previous.h"
-#include "tui/session/quick_cell.h"
 #include "tui/session/results.h"
+
+/* The quick cell of the edited parameters: a second engine that computes a whole loading
+ * curve in about two seconds (run/quick.h), before or beside the full run. */
+struct gb_quick_cell {
+    struct gb_params full_params; /* the full scene that it stands for */
+    struct gb_runner *runner;     /* NULL: no quick cell */
+    struct gb_snapshot now;
+    size_t points;
+    const struct gb_view_sample *sample;
+    enum gb_run_state state;
+    bool missed; /* updates withheld while the view is frozen */
+};
+
+bool gb_session_quick_cell_live(const struct gb_quick_cell *quick_cell);
 
 /* State of the workbench without its screen: the parameters being edited, the current
  * run, its data on display and the previous curves. */

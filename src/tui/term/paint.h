@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include "tui/plot/plot.h"
+#include "tui/panel/plot.h"
 #include "tui/term/term.h"
 
 /* The text in at most `cols` cells; g_free. */

@@ -10,7 +10,7 @@
 #include "base/alloc.h"
 #include "base/built_with.h"
 #include "base/read_file.h"
-#include "tui/plot/sphere_shading.h"
+#include "tui/panel/sphere_shading.h"
 #include "tui/term/settings.h"
 #include "tui/term/term.h"
 

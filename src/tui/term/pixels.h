@@ -6,7 +6,7 @@
 
 #include "greenbody/snapshot.h"
 #include "greenbody/status.h"
-#include "tui/plot/sphere_shading.h"
+#include "tui/panel/sphere_shading.h"
 #include "tui/term/term.h"
 
 /* The packing, or a picture, as a pixel image for terminals with an image protocol, encoded

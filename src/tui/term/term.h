@@ -4,9 +4,39 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <termios.h>
 
 #include "greenbody/status.h"
 #include "tui/term/settings.h"
+
+/* Messages of libraries and drivers on standard error go to the log while the screen is
+ * open; the newest line is shown among the events. */
+struct gb_stderr_tail {
+    int64_t length; /* bytes of the log read so far; -1: not opened yet */
+};
+
+void gb_term_tail_init(struct gb_stderr_tail *stderr_tail);
+
+/* The last complete line written to standard error since the previous call; false: none,
+ * or standard error is not a file. */
+bool gb_term_tail_poll(struct gb_stderr_tail *stderr_tail, char *line, size_t size);
+
+/* The run directory; the message names its last checkpoint, if there is one.  Copied;
+ * NULL: none. */
+void gb_term_crash_set_run(const char *directory);
+
+/* Path of the log file; g_free. */
+char *gb_term_log(void);
+
+/* Can the log be written?  Otherwise err says why nothing is logged, and the rest works. */
+bool gb_term_check_log(struct gb_error *err);
+
+/* The terminal's own type, or for an unknown one (common over ssh) a type that nearly all
+ * terminals understand.  NULL: no type with cursor addressing. */
+const char *gb_term_type(int fd, struct gb_error *err);
+
+/* Number of colours in terminfo; 0: none, or an unknown type. */
+int gb_term_colours(const char *type, int fd);
 
 /* The terminal: taken over at the start and restored at every exit.  While curses uses
  * it, standard output and standard error go to a log file. */

@@ -13,7 +13,6 @@
 #include "base/text/visible.h"
 #include "tui/term/pixels.h"
 #include "tui/term/term.h"
-#include "tui/term/term_tty.h"
 
 static const char *from_env(const char *name)
 {
@@ -40,7 +39,7 @@ static void prefer_colours(struct gb_term_profile *profile, int fd)
     }
     char name[sizeof profile->better];
     g_snprintf(name, sizeof name, "%s-256color", profile->type);
-    const int colours = gb_term_tty_colours(name, fd);
+    const int colours = gb_term_colours(name, fd);
     if (colours >= 256) {
         g_strlcpy(profile->better, name, sizeof profile->better);
         profile->type = profile->better;
@@ -103,12 +102,12 @@ bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
         (struct gb_term_profile){.own = from_env("TERM"), .images = GB_IMAGES_NONE};
     const bool ascii = settings->ascii != 0;
     profile->utf8 = !ascii && strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
-    profile->type = gb_term_tty_type(fd, err);
+    profile->type = gb_term_type(fd, err);
     if (profile->type == NULL) {
         return false;
     }
     profile->inside = in_multiplexer(profile->own);
-    profile->colours = gb_term_tty_colours(profile->type, fd);
+    profile->colours = gb_term_colours(profile->type, fd);
     prefer_colours(profile, fd);
     profile->coloured = profile->colours >= 8 && colour_wanted(settings);
     profile->braille = profile->utf8 && strcmp(profile->type, "linux") != 0;
@@ -186,7 +185,7 @@ void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings
     struct gb_error err = {0};
     const bool works = gb_term_profile_detect(&profile, fd, settings, &err);
     char *path = gb_settings_path();
-    char *log = gb_term_tty_log();
+    char *log = gb_term_log();
     gb_visible_print(out, "locale     %s, %s: UTF-8 %s%s\n", setlocale(LC_CTYPE, NULL),
                      nl_langinfo(CODESET), profile.utf8 ? "is used" : "is not used",
                      settings->ascii ? " (--ascii)" : "");
@@ -198,7 +197,7 @@ void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings
     }
     gb_visible_print(out, "settings   %s%s\n", path,
                      g_file_test(path, G_FILE_TEST_EXISTS) ? "" : " (not there)");
-    if (gb_term_tty_check_log(&err)) {
+    if (gb_term_check_log(&err)) {
         gb_visible_print(out, "log        %s\n", log);
     } else {
         gb_visible_print(out, "log        %s\n", err.text);

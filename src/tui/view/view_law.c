@@ -65,7 +65,7 @@ static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
     const struct gb_params *run =
         session->runner != NULL ? gb_runner_params(session->runner) : NULL;
     if (run == NULL || !gb_normal_law_of(run)->pair ||
-        gb_params_diff_count(edited, run) == 0 ||
+        gb_previous_diff_count(edited, run) == 0 ||
         !gb_contact_pair_init(&pair, run, NULL)) {
         return false;
     }
@@ -212,7 +212,7 @@ static bool freeze(const struct gb_panel_plot *panel, const struct gb_session *s
         return false;
     }
     if (session->runner != NULL &&
-        gb_params_diff_count(&panel->edited, gb_runner_params(session->runner)) > 0 &&
+        gb_previous_diff_count(&panel->edited, gb_runner_params(session->runner)) > 0 &&
         !gb_model_init(before, gb_runner_params(session->runner), NULL)) {
         before->count = 0;
     }

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "tui/plot/sphere_shading.h"
+#include "tui/panel/sphere_shading.h"
 #include "tui/view/views.h"
 
 /* Characters of increasing darkness, one per cell, for screens with few colours. */

@@ -88,7 +88,7 @@ void gb_view_structure_distances(struct gb_panel_plot *panel,
                                  const struct gb_session *session);
 
 /* Lateral-to-axial stress ratio against relative density, P1 Fig. 13. */
-void gb_view_legs_ratio(struct gb_panel_plot *panel, const struct gb_session *session);
+void gb_view_curve_ratio(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* Laws of the edited parameters, and dim those of the run, into panel->target: normal
  * force of two particles (P1 Fig. 1), bridge strength (P1 Fig. 2). */
@@ -109,12 +109,12 @@ void gb_view_packing_navigate(struct gb_panel_plot *panel, enum gb_action action
 
 /* Leg by leg: the path in the plane of mean pressure and deviatoric stress; deviatoric
  * stress, and volume strain, against the strain that the path is about. */
-void gb_view_legs_stress_path(struct gb_panel_plot *panel,
-                              const struct gb_session *session);
-void gb_view_legs_stress_strain(struct gb_panel_plot *panel,
-                                const struct gb_session *session);
-void gb_view_legs_volume_strain(struct gb_panel_plot *panel,
-                                const struct gb_session *session);
+void gb_view_curve_stress_path(struct gb_panel_plot *panel,
+                               const struct gb_session *session);
+void gb_view_curve_stress_strain(struct gb_panel_plot *panel,
+                                 const struct gb_session *session);
+void gb_view_curve_volume_strain(struct gb_panel_plot *panel,
+                                 const struct gb_session *session);
 
 /* Elastic moduli of the run's states against density, numbers of the last one. */
 void gb_view_moduli_draw(struct gb_panel_plot *panel, const struct gb_session *session);
