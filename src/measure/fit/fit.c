@@ -6,9 +6,9 @@
 
 #include "measure/fit/decay.h"
 
-/* The time constant of an absent exponential is undetermined, so the F test finds one
- * more often than its level says (the parameter exists under one hypothesis only); hence
- * 99 % where the intervals are at 95 %. */
+/* Without an exponential its time constant is undetermined, so the F test finds an exponential
+ * more often than its level says (the parameter exists under one hypothesis only).  The level
+ * is therefore 99 %, while intervals are at 95 %. */
 static const double f_level = 0.99;
 
 static const double interval_level = 0.975; /* two-sided 95 % */

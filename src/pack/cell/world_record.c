@@ -1,6 +1,6 @@
-/* What a checkpoint holds, and what follows from it: the lists follow from the positions
- * at their last build; branch vectors of contacts, records of pairs not in contact and the
- * gaps of far pairs follow from the present positions by an evaluation without motion. */
+/* What a checkpoint holds, and what is computed again from it.  Lists are rebuilt from the
+ * positions at their last build.  An evaluation without motion gives the rest: branch vectors,
+ * records of pairs that are not in contact, gaps of far pairs. */
 #include "pack/cell/world_record.h"
 
 #include <math.h>

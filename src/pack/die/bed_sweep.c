@@ -1,9 +1,10 @@
 /* One evaluation of a bed, and its motion.
  *
- * Blocks of consecutive particles are the unit of work: each computes the pairs that its
- * particles are the first of and its contacts with the walls.  A pair with a second particle
+ * Blocks of consecutive particles are the unit of work: each computes the pairs whose
+ * first particle it holds, and its contacts with the walls.  A pair with a second particle
  * in another block adds to a row of its own (a crossing); these rows are summed afterwards.
- * Drift and kick move the particles by blocks too, and return bounds of what they moved. */
+ * Drift and kick move the particles by blocks too.  Drift returns a bound of the squared
+ * deviation, kick one of the speeds. */
 
 #include "pack/die/bed_sweep.h"
 

@@ -3,8 +3,8 @@
  * One pass over each block of particles does all that lies between two evaluations:
  * velocities, fixed-point positions and rotation increments for the next sweep, and bounds of
  * the displacements since the list build.  A block is cut into tiles that fit the first cache.
- * Forces, velocities and displacements are rows of eight numbers, of translation and of
- * rotation; vectors of any width load some rows or halves of one. */
+ * Forces, velocities and displacements are rows of eight numbers: four of translation, four of
+ * rotation.  A vector register loads several rows, one row or half of one. */
 
 #include "pack/f32/integrate_f32.h"
 

@@ -1,6 +1,6 @@
 /* Rebuild of the lists of the engine, and of all that has one entry per pair.
  *
- * Contact records hold the history of friction, so that they must survive a rebuild.  The
+ * Contact records hold the history of friction, so they must survive a rebuild.  The
  * caller notes the contacts, builds the lists and then moves the records:
  *   carry_note   the pair and the slot of every contact, in the order of the old list
  *   build        new lists, and room for their pairs in every array

@@ -1,11 +1,11 @@
 /* The list check: do the lists still hold every pair?
  *
- * Two particles within the reach now were at most reach (1 + strain) + both displacements
- * apart at the build.  Pairs nearer than reach + skin were listed then.  So the lists are
+ * If two particles are within the reach now, they were at most reach (1 + strain) + both
+ * displacements apart at the build.  Pairs nearer than reach + skin were listed then.  So the lists are
  * complete while no particle has moved farther than the margin, which is about half the skin.
  *
- * Of thousands of particles a few, without load, move much farther than the others and would
- * force a rebuild alone.  These escaped particles are checked one by one: their partners are
+ * Among thousands of particles a few, without load, move much farther than the others.  They
+ * alone would force a rebuild.  These escaped particles are checked one by one: their partners are
  * looked up in the bins of the build, one or two bins to each side.  The lists are valid as
  * long as they hold the pairs that are found.  list_patch.c inserts pairs that are missing. */
 

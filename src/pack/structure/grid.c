@@ -1,4 +1,4 @@
-/* A grid of points in a periodic cell that grows point by point, and searches in it.
+/* A search grid in a periodic cell.  Points are added one by one.
  *
  * Chain growth places one particle after the other and asks after each which particles lie in
  * a ball or along a ray.  Grid cells lie in blocks of 4 x 4 x 4, and one word tells which of

@@ -2,10 +2,10 @@
  * (2006), with the half step back and the semi-implicit Euler of Guenole et al., Comput.
  * Mater. Sci. 175, 109584 (2020).
  *
- * Rotations count as lengths, angle * sqrt(inertia), so that all six degrees of freedom
- * of a particle have the same mass: its diameter, as the stiffness around a particle grows
- * with it (P1's sizes of sigma 0.25 and 0.55 take 1.4 and 1.6 times as many evaluations with
- * unit masses, 1.2 and 1.9 with the square).  The mixing takes the norms of unit masses. */
+ * Rotations count as lengths, angle * sqrt(inertia), so all six degrees of freedom of a
+ * particle have the same mass.  This mass is its diameter, because the stiffness around a
+ * particle grows with its diameter.  P1's sizes of sigma 0.25 and 0.55 take 1.4 and 1.6 times as
+ * many evaluations with unit masses, 1.2 and 1.9 with squared diameters.  The mixing takes the norms of unit masses. */
 #include <math.h>
 #include <string.h>
 

@@ -3,9 +3,9 @@
  * "The value of k is set in such a way that the displacement of the particle under the
  * maximum force is equal to (d - r_eq)/2; the particle is not moved farther than the
  * position where the minimum of the absolute value of the force is reached."  The second
- * rule is the stiffness of the most strongly held particle: k <= 1/K.  Rotations follow
- * the torques with the mobility of the same k over the rotational inertia that makes them
- * as soft as translations. */
+ * rule limits k by the stiffness K of the most strongly held particle: k <= 1/K.  Rotations
+ * follow the torques with mobility k/inertia, where the inertia makes them as soft as
+ * translations. */
 #include <math.h>
 
 #include "base/vec.h"

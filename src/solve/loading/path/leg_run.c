@@ -8,7 +8,7 @@
  *   held      which stresses are held, and how far they are from their values
  *   goal      size of the next step; overshoot; goals that move away
  *   step      corrections of a step until the held stresses are there
- *   leg       order of it all */
+ *   leg       calls the parts above in order */
 
 #include "solve/loading/path/leg_run.h"
 
