@@ -158,7 +158,7 @@ sed -i 's/^mu = .*/mu = 0.3/' broken/preset.ini
 refused 'a preset that was edited' 'preset.ini: was changed'
 cp kept/preset.ini broken
 head -c 5000 kept/curve.csv >broken/curve.csv
-refused 'a curve that is cut' 'curve.csv: is not as'
+refused 'a curve that is cut' 'curve.csv: does not match the checkpoint'
 cp kept/curve.csv broken
 head -c 20000 kept/state.h5 >broken/state.h5
 refused 'a state that is cut' 'state.h5'
