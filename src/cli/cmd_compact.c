@@ -123,7 +123,7 @@ static bool compact_options_begin(struct compact_options *options, char **words,
         !gb_options_scene(&options->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err)) {
         return false;
     }
-    gb_progress_init(&options->progress, options->quiet || gb_pool_read().rank > 0);
+    gb_progress_init(&options->progress, options->quiet || gb_pool_launch().rank > 0);
     gb_progress_catch_signals(GB_SIGNALS_HANGUP_ENDS);
     options->callbacks =
         (struct gb_cells_callbacks){gb_progress_cancelled, on_progress, on_wait, options};

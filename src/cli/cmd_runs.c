@@ -23,7 +23,7 @@
 
 static const char working[] = "runs";
 
-/* Names are unique: those of the workbench are the part below its folder. */
+/* Names are unique.  A run of the workbench is named by its path below the workbench's folder. */
 enum names { NAMES_BELOW, NAMES_WHOLE };
 
 static void add(GPtrArray *list, const char *folder, enum names names)
@@ -37,9 +37,9 @@ static void add(GPtrArray *list, const char *folder, enum names names)
     }
 }
 
-/* The runs (io/runs/run_list.h) below the folders named, or, where there are none, below that of
- * the workbench and `runs` in the working folder, in which `run` without --out keeps its
- * own; sorted.  g_ptr_array_unref. */
+/* The runs (io/runs/run_list.h) below these folders, sorted.  Without folders: below the
+ * workbench's folder and below `runs` in the working folder, where `run` without --out puts
+ * them.  g_ptr_array_unref. */
 static GPtrArray *runs_folders_list(char **folders)
 {
     GPtrArray *list = gb_run_list_new();
@@ -142,7 +142,7 @@ static int print_progress(const char *directory, struct gb_error *err)
         }
     }
     if (shot->error.code == GB_ERR_MACHINE || shot->error.code == GB_ERR_INPUT) {
-        /* an error of reading; that of the run is printed below */
+        /* the run could not be read; its own error is printed below */
         *err = shot->error;
         gb_progress_clear(&progress);
         gb_runner_destroy(runner);

@@ -89,7 +89,7 @@ static bool add_axes(struct command *command, struct gb_error *err)
         return false;
     }
     for (size_t i = 0; vary != NULL && vary[i] != NULL; i++) {
-        if (!gb_param_sweep_add(&command->sweep.axes, vary[i], err)) {
+        if (!gb_param_sweep_add_axis(&command->sweep.axes, vary[i], err)) {
             return false;
         }
     }

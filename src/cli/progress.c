@@ -104,7 +104,7 @@ bool gb_progress_batch_init(struct gb_batch_progress *batch, int jobs, bool quie
                             "--jobs %d: must be between 1 and %d, or 0 for all", jobs,
                             JOBS_MAX);
     }
-    batch->launch = gb_pool_read();
+    batch->launch = gb_pool_launch();
     batch->output = quiet                     ? GB_BATCH_PROGRESS_QUIET
                     : batch->launch.rank == 0 ? GB_BATCH_PROGRESS_ALL
                                               : GB_BATCH_PROGRESS_OTHER;

@@ -12,12 +12,12 @@
 #include "study/papers/papers_comparisons.h"
 
 /* Keys that change how well a scene is computed and how much of it. */
-static const char *const accepted[] = {"particles.count",     "structure.base",
-                                       "loading.until",       "loading.unload_from",
-                                       "loading.step",        "loading.record",
-                                       "loading.hold",        "loading.relax",
-                                       "loading.record_time", "loading.record_pressure",
-                                       "numerics.",           NULL};
+static const char *const ignored[] = {"particles.count",     "structure.base",
+                                      "loading.until",       "loading.unload_from",
+                                      "loading.step",        "loading.record",
+                                      "loading.hold",        "loading.relax",
+                                      "loading.record_time", "loading.record_pressure",
+                                      "numerics.",           NULL};
 
 /* The figures whose lines are groups of runs with a number of their own each: the mark has
  * the colour of the line. */
@@ -36,7 +36,7 @@ static int find_scene(const struct gb_papers_comparison *comparison,
         return -1;
     }
     for (size_t i = 0; i < set->count && found < 0; i++) {
-        if (gb_runset_find(&params, &set->run[i].params, accepted) == NULL) {
+        if (gb_runset_differing_key(&params, &set->run[i].params, ignored) == NULL) {
             found = (int)set->run[i].group;
         }
     }

@@ -16,9 +16,9 @@
  *   p_MPa           pressure over the compressed axes
  *   density         relative; and the others of io/lab/lab_quantity.h, one or more of them,
  *                   empty where a row lacks one
- *   density_error   standard error (of one quantity: all or none; of several: all), and
- *                   those of the others
- *   weight          (optional, 1) what the row counts in the fit beside its errors
+ *   density_error   standard error, and QUANTITY_error of the other quantities: in all rows or
+ *                   none with one quantity, in all rows with several
+ *   weight          (optional, 1) factor on what the row counts in the fit by its error
  *   series          words (optional): one only
  *   branch          load (the default), or unload: what is left after unloading from p_MPa
  *   group.key_unit  (optional, any number) what the row was pressed with, as contact.mu or
@@ -41,7 +41,7 @@ struct gb_labdata {
 
 /* Takes the rows; the scenes are params with the keys of their rows, a loading that reaches
  * the greatest pressure, and unloading where rows ask for it.  Errors: GB_ERR_INPUT with
- * the line, GB_ERR_MEMORY.  gb_compaction_data_targets_finish is due on success. */
+ * the line, GB_ERR_MEMORY.  After success, free it by gb_compaction_data_targets_finish. */
 bool gb_compaction_data_take(struct gb_labdata *measured, const struct gb_table *table,
                              const struct gb_params *params, struct gb_error *err);
 

@@ -85,7 +85,7 @@ bool gb_param_sweep_design(struct gb_axes *axes, const char *text, struct gb_err
     return true;
 }
 
-/* The unit behind a number, "" when there is none; NULL for text that is no number. */
+/* The unit after a number, "" without a unit; NULL if the text is not a number. */
 static const char *unit_of(const char *text, double *value)
 {
     const char *end = text;
@@ -320,7 +320,7 @@ static const struct gb_field *find_field(const struct gb_axes *axes, const char 
     return field;
 }
 
-bool gb_param_sweep_add(struct gb_axes *axes, const char *text, struct gb_error *err)
+bool gb_param_sweep_add_axis(struct gb_axes *axes, const char *text, struct gb_error *err)
 {
     const char *equals = strchr(text, '=');
     if (equals == NULL || equals == text) {
@@ -398,8 +398,8 @@ bool gb_param_sweep_apply(const struct gb_axes *axes, size_t point,
     return gb_params_check(params, err);
 }
 
-/* The unit in which a column is written: that of the first value if all have it, else of
- * the SI.  "" for pure numbers and words; *same tells which. */
+/* The unit in which a column is written: the one of all values (*same), else "" for SI.
+ * Numbers without a unit and words have "", too. */
 static const char *column_unit(const struct gb_axis *axis, bool *same)
 {
     double number = 0.0;
@@ -457,7 +457,7 @@ static bool is_key_unique(const struct gb_axes *axes, size_t axis)
     return true;
 }
 
-char *gb_param_sweep_name(const struct gb_axes *axes, size_t point)
+char *gb_param_sweep_point_name(const struct gb_axes *axes, size_t point)
 {
     GString *name = g_string_new(axes->count == 0 ? "scene" : NULL);
     for (size_t i = 0; i < axes->count; i++) {
@@ -881,7 +881,7 @@ static bool fill_runs(struct gb_param_sweep *sweep, const struct gb_params *para
         run->params.seed += run->replica;
         /* the cores are shared by the runs, not by threads of each */
         run->params.threads = run->params.threads > 0 ? run->params.threads : 1;
-        char *name = gb_param_sweep_name(&sweep->axes, run->point);
+        char *name = gb_param_sweep_point_name(&sweep->axes, run->point);
         run->directory = g_strdup_printf("%s/%s_seed-%" G_GUINT64_FORMAT, directory, name,
                                          run->params.seed);
         g_free(name);

@@ -17,7 +17,7 @@ struct gb_axis {
     const struct gb_field *field;
     GPtrArray *values; /* char *, as a preset would write them */
     double *share;     /* of a design: place in the range at each point, 0 to 1 */
-    bool material; /* the values are names of materials, the field is that of the name */
+    bool material;     /* values are names of materials, the field is material.name */
 };
 
 struct gb_axes {
@@ -38,10 +38,11 @@ bool gb_param_sweep_design(struct gb_axes *axes, const char *text, struct gb_err
  * contains the shorter.  "material=alumina;yttria" varies all keys of [material] by name, in
  * front of the other axes; its column is that of material.name.
  *
- * Errors: GB_ERR_INPUT with what was given and what is accepted, for values that the key
+ * Errors: GB_ERR_INPUT with what was given and what is expected, for values that the key
  * refuses, values given twice, and keys that make no other experiment (seed, title,
  * threads, [output]) or are lists themselves. */
-bool gb_param_sweep_add(struct gb_axes *axes, const char *text, struct gb_error *err);
+bool gb_param_sweep_add_axis(struct gb_axes *axes, const char *text,
+                             struct gb_error *err);
 
 void gb_param_sweep_axes_finish(struct gb_axes *axes); /* zeroed is fine */
 
@@ -61,7 +62,7 @@ bool gb_param_sweep_apply(const struct gb_axes *axes, size_t point,
  * letters, digits, '.', '+' nor '-' become "~" and two hexadecimal digits per byte, and
  * what is longer than a file name may be ends with "~~" and a checksum.  Caller
  * g_frees. */
-char *gb_param_sweep_name(const struct gb_axes *axes, size_t point);
+char *gb_param_sweep_point_name(const struct gb_axes *axes, size_t point);
 
 /* The same for a table: the name of a column, "contact.mu" or "particles.diameter_nm",
  * and the cell of a point under it, a number in that unit, or a word.  Name: caller

@@ -68,7 +68,7 @@ static void add_array(struct gb_launch *launch)
     }
 }
 
-struct gb_launch gb_pool_read(void)
+struct gb_launch gb_pool_launch(void)
 {
     struct gb_launch launch = {.count = 1, .local_count = 1};
     for (size_t i = 0; i < G_N_ELEMENTS(launchers) && !launch.launched; i++) {

@@ -15,10 +15,10 @@ struct gb_launch {
     bool launched;    /* by one of these, also as one process */
 };
 
-struct gb_launch gb_pool_read(void);
+struct gb_launch gb_pool_launch(void);
 
-/* Processors for this process: those of its affinity, but no more than its share of what the
- * local processes have together, by Slurm's allocation and the quota of the cgroup.  At
+/* Processors for this process: its affinity, but no more than its share of what all local
+ * processes have together by Slurm's allocation and the quota of the cgroup.  At
  * least 1. */
 long gb_pool_cores(const struct gb_launch *launch);
 

@@ -42,14 +42,14 @@ static bool key_difference_equal(const struct gb_field *field, const struct gb_p
                   gb_params_format(b, field, second, sizeof second)) == 0;
 }
 
-const struct gb_field *gb_runset_find(const struct gb_params *a,
-                                      const struct gb_params *b,
-                                      const char *const *accepted)
+const struct gb_field *gb_runset_differing_key(const struct gb_params *a,
+                                               const struct gb_params *b,
+                                               const char *const *ignored)
 {
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!gb_runset_bookkeeping(&fields[i]) && !is_listed(&fields[i], accepted) &&
+        if (!gb_runset_bookkeeping(&fields[i]) && !is_listed(&fields[i], ignored) &&
             !key_difference_equal(&fields[i], a, b)) {
             return &fields[i];
         }
@@ -60,7 +60,7 @@ const struct gb_field *gb_runset_find(const struct gb_params *a,
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
 {
     static const char *const none[] = {NULL};
-    return gb_runset_find(a, b, none) == NULL;
+    return gb_runset_differing_key(a, b, none) == NULL;
 }
 
 static bool has_file(const char *directory, const char *name)
@@ -127,7 +127,8 @@ static size_t group_of(const struct gb_runset *set, size_t index, const char *co
 {
     const struct gb_runset_run *run = &set->run[index];
     for (size_t i = 0; i < index; i++) {
-        bool taken = gb_runset_find(&run->params, &set->run[i].params, keys) != NULL;
+        bool taken =
+            gb_runset_differing_key(&run->params, &set->run[i].params, keys) != NULL;
         for (size_t k = 0; k < index && !taken; k++) {
             taken = set->run[k].group == set->run[i].group &&
                     is_one_cell(&set->run[k].params, &run->params);
@@ -316,10 +317,10 @@ char *gb_runset_label_of_title(const struct gb_runset *set, size_t group)
 }
 
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
-                                            size_t b, const char *const *accepted)
+                                            size_t b, const char *const *ignored)
 {
-    return gb_runset_find(&gb_runset_first(set, a)->params,
-                          &gb_runset_first(set, b)->params, accepted);
+    return gb_runset_differing_key(&gb_runset_first(set, a)->params,
+                                   &gb_runset_first(set, b)->params, ignored);
 }
 
 /* Points of a branch (NULL: of all) where x is there; of those that are in equilibrium, or

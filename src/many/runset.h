@@ -11,11 +11,11 @@
 /* Keys without effect on the experiment: title, seed, threads, [output]. */
 bool gb_runset_bookkeeping(const struct gb_field *field);
 
-/* The first key in which two scenes differ, other than bookkeeping and those of
- * `accepted`, a NULL-terminated list of "group.key" and "group."; NULL: none. */
-const struct gb_field *gb_runset_find(const struct gb_params *a,
-                                      const struct gb_params *b,
-                                      const char *const *accepted);
+/* The first key in which two scenes differ, other than bookkeeping and the keys of
+ * `ignored`, a NULL-terminated list of "group.key" and "group."; NULL: none. */
+const struct gb_field *gb_runset_differing_key(const struct gb_params *a,
+                                               const struct gb_params *b,
+                                               const char *const *ignored);
 
 /* Finished runs read back from their directories.  Runs whose presets are equal but for
  * seed, title, threads and [output] are one group: replicas of one experiment. */
@@ -73,10 +73,10 @@ char *gb_runset_label(const struct gb_runset *set, size_t group);
 /* The same, from the groups of the same title alone. */
 char *gb_runset_label_of_title(const struct gb_runset *set, size_t group);
 
-/* The first key in which two groups differ, other than those of `accepted`, a
+/* The first key in which two groups differ, other than the keys of `ignored`, a
  * NULL-terminated list of "group.key" and "group."; NULL when there is none. */
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
-                                            size_t b, const char *const *accepted);
+                                            size_t b, const char *const *ignored);
 
 /* Points (x, y) of one branch of a run (NULL: of all) where x is there, without those that
  * are not in equilibrium (column unrelaxed); arrays to be given to gb_alloc_free.  Errors:

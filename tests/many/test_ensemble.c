@@ -119,7 +119,7 @@ static void make(struct gb_ensemble *ensemble, const struct gb_axes *axes,
             gb_params_assign(&run->params, "loading.unload_from=100 MPa", &err));
         g_assert_true(gb_param_sweep_apply(axes, run->point, &run->params, &err));
         run->params.seed += run->replica;
-        char *point = gb_param_sweep_name(axes, run->point);
+        char *point = gb_param_sweep_point_name(axes, run->point);
         run->directory = g_strdup_printf("%s/%s/%s_seed-%d", folder, name, point,
                                          (int)run->params.seed);
         g_free(point);
@@ -154,7 +154,7 @@ static char *tables(struct gb_ensemble *ensemble, const struct gb_axes *axes)
 static void add(struct gb_axes *axes, const char *text)
 {
     struct gb_error err = {0};
-    if (!gb_param_sweep_add(axes, text, &err)) {
+    if (!gb_param_sweep_add_axis(axes, text, &err)) {
         g_error("%s: %s", text, err.text);
     }
 }
@@ -172,7 +172,7 @@ static void test_axes(void)
     g_assert_cmpstr(gb_param_sweep_value(&axes, 63, 0), ==, "0.4");
     g_assert_cmpstr(gb_param_sweep_value(&axes, 7, 1), ==, "38 nm");
     g_assert_cmpstr(gb_param_sweep_value(&axes, 7, 2), ==, "isotropic");
-    char *name = gb_param_sweep_name(&axes, 10);
+    char *name = gb_param_sweep_point_name(&axes, 10);
     g_assert_cmpstr(name, ==, "mu-0.1_diameter-16nm_geometry-uniaxial");
     g_free(name);
     char *column = gb_param_sweep_column(&axes, 1);
@@ -202,7 +202,7 @@ static void test_axes_names(void)
     struct gb_axes axes = {0};
     add(&axes, "material.name=a/b;ab;a b;a_b;a~20b");
     for (size_t i = 0; i < G_N_ELEMENTS(expected); i++) {
-        char *name = gb_param_sweep_name(&axes, i);
+        char *name = gb_param_sweep_point_name(&axes, i);
         g_assert_cmpstr(name, ==, expected[i]);
         g_free(name);
     }
@@ -211,7 +211,8 @@ static void test_axes_names(void)
     char *same = g_strnfill(62, 'x');
     char *line = g_strdup_printf("material.name=%sa;%sb", same, same);
     add(&axes, line);
-    char *a = gb_param_sweep_name(&axes, 0), *b = gb_param_sweep_name(&axes, 1);
+    char *a = gb_param_sweep_point_name(&axes, 0),
+         *b = gb_param_sweep_point_name(&axes, 1);
     g_assert_cmpstr(a, !=, b);
     g_assert_cmpuint(strlen(a), ==, strlen("name-") + 40 + 2 + 16);
     g_free(a);
@@ -228,7 +229,7 @@ static void test_axes_material(void)
     add(&axes, "material.young=5;6 GPa");
     add(&axes, "material=yttria,microcrystalline-cellulose");
     g_assert_cmpuint(gb_param_sweep_points(&axes), ==, 4);
-    char *name = gb_param_sweep_name(&axes, 3);
+    char *name = gb_param_sweep_point_name(&axes, 3);
     g_assert_cmpstr(name, ==, "young-6GPa_material-microcrystalline-cellulose");
     g_free(name);
     char *column = gb_param_sweep_column(&axes, 1);
@@ -241,7 +242,7 @@ static void test_axes_material(void)
     g_assert_cmpstr(params.material, ==, "yttria");
     g_assert_cmpfloat(params.density_kg_m3, ==, 5020.0);
     g_assert_cmpfloat(params.young_pa, ==, 6e9);
-    g_assert_false(gb_param_sweep_add(&axes, "material.name=a;b", NULL));
+    g_assert_false(gb_param_sweep_add_axis(&axes, "material.name=a;b", NULL));
     gb_param_sweep_axes_finish(&axes);
 }
 
@@ -287,7 +288,7 @@ static void test_axes_design(void)
                                       "contact.mu=0.1:0.1",   "material=iron;copper"};
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         struct gb_axes refused = {.design = 8};
-        g_assert_false(gb_param_sweep_add(&refused, bad[i], &err));
+        g_assert_false(gb_param_sweep_add_axis(&refused, bad[i], &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         gb_param_sweep_axes_finish(&refused);
     }
@@ -331,14 +332,14 @@ static void test_axes_refuse(void)
         struct gb_axes axes = {0};
         struct gb_error err = {0};
         g_test_message("%s", bad[i]);
-        g_assert_false(gb_param_sweep_add(&axes, bad[i], &err));
+        g_assert_false(gb_param_sweep_add_axis(&axes, bad[i], &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         g_assert_cmpstr(err.text, !=, "");
         gb_param_sweep_axes_finish(&axes);
     }
     struct gb_axes axes = {0};
     add(&axes, "contact.mu=0.1;0.2");
-    g_assert_false(gb_param_sweep_add(&axes, "contact.mu=0.3;0.4", NULL));
+    g_assert_false(gb_param_sweep_add_axis(&axes, "contact.mu=0.3;0.4", NULL));
     gb_param_sweep_axes_finish(&axes);
 }
 

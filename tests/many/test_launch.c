@@ -38,7 +38,7 @@ static struct gb_launch read_of(const char *variables)
         g_strfreev(pair);
     }
     g_strfreev(pairs);
-    return gb_pool_read();
+    return gb_pool_launch();
 }
 
 static void test_launchers(void)

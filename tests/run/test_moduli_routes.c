@@ -269,9 +269,9 @@ static void test_two_dense(void)
     compare(&system_two, "loading.until=density=0.55");
 }
 
-/* The smallest strains of both signs change the stress about alike.  In the second cell the
- * equilibrium that is nearest to the pressed state is not stable: by any strain, particles
- * left it, and the stress jumped by more than it changed otherwise. */
+/* The smallest strains of both signs change the stress by opposite amounts.  In the second cell
+ * the equilibrium nearest to the pressed state is not stable: at any strain particles leave it,
+ * and the stress jumps by more than the strain changes it. */
 static void test_stable(void)
 {
     static const double size = GB_PROBE_STRAIN_MIN;

@@ -19,7 +19,7 @@ struct gb_image {
 bool gb_image_create(struct gb_image **out, int width, int height, struct gb_error *err);
 void gb_image_destroy(struct gb_image *image); /* NULL is fine */
 
-/* "1600x1200".  Errors: GB_ERR_INPUT saying what is accepted. */
+/* "1600x1200".  Errors: GB_ERR_INPUT saying what is expected. */
 bool gb_image_parse_size(const char *text, int *width, int *height, struct gb_error *err);
 
 /* Swaps the byte order of cairo (blue first) and of images (red first). */

@@ -1,9 +1,9 @@
 /* Neighbour lists of a bed.
  *
  * Candidates are all pairs with a gap below the skin, from a hierarchical grid (hgrid).  The
- * list of pairs holds the candidates that steady motion will soon bring together.  It is shorter,
- * and is selected more often than the candidates are searched.  Another list holds the contacts with the walls.
- * Touching contacts keep their histories whenever a list is rebuilt.
+ * list of pairs holds the candidates that steady motion will soon bring together.  It is
+ * shorter, and is selected more often than the candidates are searched.  Another list holds the
+ * contacts with the walls.  Touching contacts keep their histories whenever a list is rebuilt.
  *
  * Particles that moved far are renumbered along a Hilbert curve now and then, so that
  * neighbours in space are neighbours in memory. */

@@ -1,8 +1,8 @@
 /* The list check: do the lists still hold every pair?
  *
  * If two particles are within the reach now, they were at most reach (1 + strain) + both
- * displacements apart at the build.  Pairs nearer than reach + skin were listed then.  So the lists are
- * complete while no particle has moved farther than the margin, which is about half the skin.
+ * displacements apart at the build.  Pairs nearer than reach + skin were listed then.  So the
+ * lists are complete while no particle has moved farther than the margin, about half the skin.
  *
  * Among thousands of particles a few, without load, move much farther than the others.  They
  * alone would force a rebuild.  These escaped particles are checked one by one: their partners are

@@ -638,9 +638,9 @@ static bool balance_from(struct gb_probe *probe, const struct gb_world_copy *sta
            (rounded ? balance_rounded(probe, first, err) : balance(probe, first, err));
 }
 
-/* Do the smallest strains of both signs change the stress alike?  Contacts that slide one way
- * only leave a difference of a fifth.  Where Newton's method has found an equilibrium that
- * is not stable, the particles leave it, and the stress jumps by as much at any strain. */
+/* Do the smallest strains of both signs change the stress by opposite amounts?  Contacts that
+ * slide one way only make them differ by up to a fifth.  An equilibrium of Newton's method may be
+ * unstable: then particles leave it, and the stress jumps by the same amount at any strain. */
 static bool is_stable(struct gb_probe *probe, struct gb_error *err)
 {
     static const double size = GB_PROBE_STRAIN_MIN;

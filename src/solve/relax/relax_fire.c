@@ -5,7 +5,8 @@
  * Rotations count as lengths, angle * sqrt(inertia), so all six degrees of freedom of a
  * particle have the same mass.  This mass is its diameter, because the stiffness around a
  * particle grows with its diameter.  P1's sizes of sigma 0.25 and 0.55 take 1.4 and 1.6 times as
- * many evaluations with unit masses, 1.2 and 1.9 with squared diameters.  The mixing takes the norms of unit masses. */
+ * many evaluations with unit masses, 1.2 and 1.9 with squared diameters.  The mixing takes the
+ * norms of unit masses. */
 #include <math.h>
 #include <string.h>
 

@@ -664,8 +664,8 @@ static bool check_scene(const struct gb_chart_log *log, struct gb_error *err)
     struct gb_preset *preset = NULL;
     bool good = gb_preset_load(&preset, path, err);
     if (good) {
-        const struct gb_field *field =
-            gb_runset_find(gb_preset_params(preset), &log->plan->params, free_keys);
+        const struct gb_field *field = gb_runset_differing_key(
+            gb_preset_params(preset), &log->plan->params, free_keys);
         good = field == NULL ||
                gb_error_set(err, GB_ERR_INPUT,
                             "%.300s: the chart of a scene with another %s.%s; expected: "

@@ -253,7 +253,7 @@ bool gb_cells_work(struct gb_cells *cells, int jobs, gb_pool_work *work,
                    const struct gb_cells_callbacks *callbacks, struct gb_error *err)
 {
     static const struct gb_cells_callbacks none;
-    const struct gb_launch launch = gb_pool_read();
+    const struct gb_launch launch = gb_pool_launch();
     const size_t workers = (size_t)(jobs > 0 ? jobs : gb_pool_cores(&launch));
     struct work study = {.cells = cells,
                          .callbacks = callbacks != NULL ? callbacks : &none,

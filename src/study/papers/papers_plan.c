@@ -96,7 +96,8 @@ bool gb_papers_plan_axes(const struct gb_papers_experiment *experiment,
                          struct gb_axes *axes, struct gb_error *err)
 {
     *axes = (struct gb_axes){0};
-    return experiment->axis == NULL || gb_param_sweep_add(axes, experiment->axis, err);
+    return experiment->axis == NULL ||
+           gb_param_sweep_add_axis(axes, experiment->axis, err);
 }
 
 bool gb_papers_plan_params(const struct gb_papers_experiment *experiment,
@@ -192,7 +193,7 @@ static bool add_point(struct list *list, size_t experiment, const struct gb_axes
         return false;
     }
     params.threads = 1; /* the cores are shared by the runs */
-    char *name = gb_param_sweep_name(axes, point);
+    char *name = gb_param_sweep_point_name(axes, point);
     for (int cell = 0; cell < cells; cell++) {
         const struct gb_papers_run run = {experiment, point, (size_t)cell};
         g_array_append_val(list->run, run);

@@ -46,7 +46,7 @@ bool gb_papers_plan_params(const struct gb_papers_experiment *experiment,
                            enum gb_papers_size size, size_t point,
                            struct gb_params *params, struct gb_error *err);
 
-/* Its axis; gb_param_sweep_axes_finish is due in any case. */
+/* Its axis; free it by gb_param_sweep_axes_finish, also after an error. */
 bool gb_papers_plan_axes(const struct gb_papers_experiment *experiment,
                          struct gb_axes *axes, struct gb_error *err);
 

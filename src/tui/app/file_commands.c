@@ -28,7 +28,7 @@ static bool is_refusal(const struct gb_message *message)
            (message->style == GB_STYLE_WARN || message->style == GB_STYLE_BAD);
 }
 
-/* Changes that a what-if or a preset has left are those of the next run, too. */
+/* The next run takes the changes that a what-if or a preset has left. */
 static void tell_changes(struct gb_app *app)
 {
     const char *changes = gb_session_params(&app->screen.session)->changes;

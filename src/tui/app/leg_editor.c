@@ -54,8 +54,8 @@ static bool isotropic(const struct gb_leg *leg, int dimension)
     return true;
 }
 
-/* Stresses of a leg from their values at its beginning, when that of the leading component
- * is t. */
+/* Stresses of a leg from their values at its beginning, where the stress of the leading
+ * component is t. */
 static void set_stresses(const struct gb_leg *leg, const struct state *from, double t,
                          struct state *to)
 {

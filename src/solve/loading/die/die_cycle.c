@@ -1,9 +1,9 @@
 /* The stages of a die scene: when one ends, and how the next one begins.
  *
  * Powder is poured, gravity falls and the powder settles; the punch presses it, unloads and
- * withdraws; the compact is ejected and springs back (GB_DIE_... of die_stages.h).  A stage of filling ends when the
- * powder is at rest; a stage of pressing ends when its ramp is over and the powder is at rest.
- * Limits of rest: GB_REST_... and GB_POURED_... of scene/tolerances.h. */
+ * withdraws; the compact is ejected and springs back (GB_DIE_... of die_stages.h).  A stage of
+ * filling ends when the powder is at rest; a stage of pressing ends when its ramp is over and the
+ * powder is at rest.  Limits of rest: GB_REST_... and GB_POURED_... of scene/tolerances.h. */
 
 #include "solve/loading/die/die_cycle.h"
 
