@@ -770,7 +770,8 @@ bool gb_path_parse_leg(struct gb_path *path, const char *text, int dimension,
 
 char **gb_path_parse_split(const char *text)
 {
-    char **phrases = g_regex_split_simple("\\s*;\\s*|\\s+then\\s+", text, 0, 0);
+    /* raw: the text may be no UTF-8 */
+    char **phrases = g_regex_split_simple("\\s*;\\s*|\\s+then\\s+", text, G_REGEX_RAW, 0);
     GPtrArray *legs = g_ptr_array_new();
     for (int i = 0; phrases[i] != NULL; i++) {
         const bool last = phrases[i + 1] == NULL;
