@@ -47,7 +47,7 @@ struct gb_leg_end {
 enum { GB_LEG_TEXT = 120 };
 
 struct gb_leg {
-    char text[GB_LEG_TEXT]; /* as typed, for events */
+    char text[GB_LEG_TEXT]; /* as typed, with one blank between words */
     struct gb_leg_component component[GB_PATH_COMPONENTS];
     int leading;    /* component; -1: none, stresses are only held */
     bool extension; /* where the end does not tell: q and q/p */

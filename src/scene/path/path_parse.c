@@ -742,14 +742,27 @@ static bool read_leg(struct path_reading *in)
            expected(in, "the end of the leg; legs are separated by ';'");
 }
 
-/* Everything is fixed but what the leg says. */
-static void init_leg(struct gb_leg *leg, const char *text)
+/* All components are fixed until words of the leg say otherwise.  The text is kept with one
+ * blank between words. */
+static bool init_leg(struct gb_leg *leg, const char *text, struct gb_error *err)
 {
+    size_t length = 0;
     *leg = (struct gb_leg){.leading = -1};
     for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
         leg->component[k].of = -1;
     }
-    g_strlcpy(leg->text, text, sizeof leg->text);
+    for (; *text != '\0'; text++) {
+        const bool blank = *text == ' ' || *text == '\t';
+        if (blank && (length == 0 || leg->text[length - 1] == ' ')) {
+            continue;
+        }
+        if (length + 1 == sizeof leg->text) {
+            return gb_error_set(err, GB_ERR_INPUT, "must be at most %zu bytes",
+                                sizeof leg->text - 1);
+        }
+        leg->text[length++] = blank ? ' ' : *text;
+    }
+    return true;
 }
 
 bool gb_path_parse_leg(struct gb_path *path, const char *text, int dimension,
@@ -761,8 +774,8 @@ bool gb_path_parse_leg(struct gb_path *path, const char *text, int dimension,
                             GB_PATH_LEGS_MAX);
     }
     in.leg = &path->leg[path->count];
-    init_leg(in.leg, text);
-    const bool good = split_words(&in.words, text, err) && read_leg(&in);
+    const bool good = init_leg(in.leg, text, err) &&
+                      split_words(&in.words, in.leg->text, err) && read_leg(&in);
     free_words(&in.words);
     path->count += good;
     return good;
