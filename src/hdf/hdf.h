@@ -1,6 +1,7 @@
 #ifndef GB_HDF_HDF_H
 #define GB_HDF_HDF_H
 
+#include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -75,15 +76,50 @@ bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, voi
 
 /* Attributes of the root group: count numbers of one type, or a text.  A text that is
  * read is cut to size and made valid UTF-8 without control characters. */
-bool gb_hdf_attributes_put_numbers(struct gb_hdf *file, const char *name,
-                                   enum gb_hdf_type type, int count, const void *data,
-                                   struct gb_error *err);
-bool gb_hdf_attributes_get_numbers(struct gb_hdf *file, const char *name,
-                                   enum gb_hdf_type type, int count, void *data,
-                                   struct gb_error *err);
-bool gb_hdf_attributes_put_text(struct gb_hdf *file, const char *name, const char *text,
-                                struct gb_error *err);
-bool gb_hdf_attributes_get_text(struct gb_hdf *file, const char *name, char *text,
-                                size_t size, struct gb_error *err);
+bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
+                        int count, const void *data, struct gb_error *err);
+bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
+                        int count, void *data, struct gb_error *err);
+bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
+                     struct gb_error *err);
+bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
+                     struct gb_error *err);
+
+/* Names of datasets that are not known beforehand. */
+enum { GB_HDF_LIST_NAME = 64 };
+
+struct gb_hdf_list {
+    int count;
+    char name[256][GB_HDF_LIST_NAME]; /* "/checkpoint/world/position" */
+};
+
+/* Is there an object of that name? */
+bool gb_hdf_list_has(struct gb_hdf *file, const char *name);
+
+/* Names of all datasets in the subgroups of a group, two levels deep.  Errors:
+ * GB_ERR_INPUT for links, other objects, names too long and more than 256 of them. */
+bool gb_hdf_list_read(struct gb_hdf *file, const char *group, struct gb_hdf_list *list,
+                      struct gb_error *err);
+
+/* Number type, rows and columns of a dataset; array->name is given.  The size is not yet
+ * to be trusted: gb_hdf_rows checks it. */
+bool gb_hdf_list_probe(struct gb_hdf *file, struct gb_hdf_array *array,
+                       struct gb_error *err);
+
+/* Groups with attributes, as other programs want them, and the file as bytes. */
+
+/* A group of the root, "/VTKHDF". */
+bool gb_hdf_group_create(struct gb_hdf *file, const char *group, struct gb_error *err);
+
+/* An attribute of a group: count numbers as an array, or a text of fixed length. */
+bool gb_hdf_group_numbers(struct gb_hdf *file, const char *group, const char *name,
+                          int count, const int64_t *numbers, struct gb_error *err);
+
+bool gb_hdf_group_text(struct gb_hdf *file, const char *group, const char *name,
+                       const char *text, struct gb_error *err);
+
+/* The finished file behind what is in bytes, instead of gb_hdf_store.  After that only
+ * gb_hdf_destroy may be called. */
+bool gb_hdf_group_image(struct gb_hdf *file, GString *bytes, struct gb_error *err);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hdf/hdf_list.h"
+#include "hdf/hdf.h"
 
 /* Raised whenever the members of a record change their meaning: a resumed run must be the
  * same run, so no other layout is read. */
@@ -47,10 +47,9 @@ bool gb_hdf_record_put(struct gb_hdf *file, const struct gb_record *record,
                        struct gb_error *err)
 {
     const uint64_t hash = gb_record_hash(record);
-    bool done = gb_hdf_attributes_put_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,
-                                              &layout_number, err) &&
-                gb_hdf_attributes_put_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1,
-                                              &hash, err);
+    bool done = gb_hdf_put_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,
+                                   &layout_number, err) &&
+                gb_hdf_put_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1, &hash, err);
     for (int k = 0; k < record->count && done; k++) {
         const struct gb_record_item *item = &record->item[k];
         char name[GB_HDF_LIST_NAME];
@@ -75,8 +74,7 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
                             "continue from it (written by pack)",
                             path);
     }
-    if (!gb_hdf_attributes_get_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1,
-                                       &layout, err)) {
+    if (!gb_hdf_get_numbers(file, "checkpoint_layout", GB_HDF_INT32, 1, &layout, err)) {
         return false;
     }
     if (layout != layout_number) {
@@ -118,8 +116,7 @@ static bool check_hash(const struct gb_record *record, struct gb_hdf *file,
                        const char *path, struct gb_error *err)
 {
     uint64_t kept = 0;
-    return gb_hdf_attributes_get_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1, &kept,
-                                         err) &&
+    return gb_hdf_get_numbers(file, "checkpoint_hash", GB_HDF_UINT64, 1, &kept, err) &&
            (kept == gb_record_hash(record) ||
             gb_error_set(err, GB_ERR_INPUT,
                          "%s: is damaged: checkpoint_hash does not match the data",

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "hdf/hdf_group.h"
+#include "hdf/hdf.h"
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
 #include "io/export/export_vectors.h"

@@ -220,28 +220,26 @@ static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
     const int32_t branch = state->point.branch;
     char sum[DIGEST_SIZE];
     digest(state, sum);
-    if (!gb_hdf_attributes_put_numbers(file, "layout", GB_HDF_INT32, 1, &layout_number,
-                                       err) ||
-        !gb_hdf_attributes_put_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension,
-                                       err) ||
-        !gb_hdf_attributes_put_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
-        !gb_hdf_attributes_put_text(file, "title", state->preset, err) ||
-        !gb_hdf_attributes_put_text(file, "version", state->version, err) ||
-        !gb_hdf_attributes_put_text(file, "sha256", sum, err)) {
+    if (!gb_hdf_put_numbers(file, "layout", GB_HDF_INT32, 1, &layout_number, err) ||
+        !gb_hdf_put_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension, err) ||
+        !gb_hdf_put_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
+        !gb_hdf_put_text(file, "title", state->preset, err) ||
+        !gb_hdf_put_text(file, "version", state->version, err) ||
+        !gb_hdf_put_text(file, "sha256", sum, err)) {
         return false;
     }
     for (int k = 0; k < NUMBER_COUNT; k++) {
         const struct number_row *row = &numbers[k];
-        if (!gb_hdf_attributes_put_numbers(file, row->name, row->type, row->count,
-                                           (const char *)state + row->offset, err)) {
+        if (!gb_hdf_put_numbers(file, row->name, row->type, row->count,
+                                (const char *)state + row->offset, err)) {
             return false;
         }
     }
     const struct gb_point_column *row;
     for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
-        if (row->state != NULL && !gb_hdf_attributes_put_numbers(
-                                      file, row->state, type_of(row), (int)row->count,
-                                      (const char *)&state->point + row->offset, err)) {
+        if (row->state != NULL &&
+            !gb_hdf_put_numbers(file, row->state, type_of(row), (int)row->count,
+                                (const char *)&state->point + row->offset, err)) {
             return false;
         }
     }
@@ -270,7 +268,7 @@ bool gb_state_write(const struct gb_state *state, const struct gb_record *record
 static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *err)
 {
     int32_t layout = 0;
-    if (!gb_hdf_attributes_get_numbers(file, "layout", GB_HDF_INT32, 1, &layout, err)) {
+    if (!gb_hdf_get_numbers(file, "layout", GB_HDF_INT32, 1, &layout, err)) {
         return false;
     }
     if (layout != layout_number) {
@@ -287,29 +285,26 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file,
 {
     int32_t dimension = 0;
     int32_t branch = 0;
-    if (!gb_hdf_attributes_get_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension,
-                                       err) ||
-        !gb_hdf_attributes_get_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
-        !gb_hdf_attributes_get_text(file, "title", state->preset, sizeof state->preset,
-                                    err) ||
-        !gb_hdf_attributes_get_text(file, "version", state->version,
-                                    sizeof state->version, err)) {
+    if (!gb_hdf_get_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension, err) ||
+        !gb_hdf_get_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
+        !gb_hdf_get_text(file, "title", state->preset, sizeof state->preset, err) ||
+        !gb_hdf_get_text(file, "version", state->version, sizeof state->version, err)) {
         return false;
     }
     state->dimension = dimension;
     state->point.branch = branch;
     for (int k = 0; k < NUMBER_COUNT; k++) {
         const struct number_row *row = &numbers[k];
-        if (!gb_hdf_attributes_get_numbers(file, row->name, row->type, row->count,
-                                           (char *)state + row->offset, err)) {
+        if (!gb_hdf_get_numbers(file, row->name, row->type, row->count,
+                                (char *)state + row->offset, err)) {
             return false;
         }
     }
     const struct gb_point_column *row;
     for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
-        if (row->state != NULL && !gb_hdf_attributes_get_numbers(
-                                      file, row->state, type_of(row), (int)row->count,
-                                      (char *)&state->point + row->offset, err)) {
+        if (row->state != NULL &&
+            !gb_hdf_get_numbers(file, row->state, type_of(row), (int)row->count,
+                                (char *)&state->point + row->offset, err)) {
             return false;
         }
     }
@@ -321,7 +316,7 @@ static bool check_digest(const struct gb_state *state, struct gb_hdf *file,
 {
     char kept[DIGEST_SIZE];
     char sum[DIGEST_SIZE];
-    if (!gb_hdf_attributes_get_text(file, "sha256", kept, sizeof kept, err)) {
+    if (!gb_hdf_get_text(file, "sha256", kept, sizeof kept, err)) {
         return false;
     }
     digest(state, sum);

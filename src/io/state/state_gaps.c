@@ -41,7 +41,7 @@ static uint64_t *contact_keys(const struct gb_state *state, struct gb_error *err
 
 /* Positions inside the cell, then diameters; gb_alloc_free. */
 static double *inside(const struct gb_state *state, const struct gb_cell *cell,
-                     struct gb_error *err)
+                      struct gb_error *err)
 {
     const size_t count = (size_t)state->count;
     double *at = gb_alloc_array(4 * count, sizeof *at, err);

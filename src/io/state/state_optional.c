@@ -7,7 +7,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "hdf/hdf_list.h"
+#include "hdf/hdf.h"
 #include "io/state/state_array.h"
 
 enum { DIGEST_SIZE = 65, BED_COLUMNS = 4 };
@@ -224,16 +224,15 @@ bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
                              struct gb_error *err)
 {
     char sum[DIGEST_SIZE];
-    bool done =
-        !digest(state, sum) || gb_hdf_attributes_put_text(file, sum_name, sum, err);
+    bool done = !digest(state, sum) || gb_hdf_put_text(file, sum_name, sum, err);
     if (done && isfinite(state->second_per_time)) {
-        done = gb_hdf_attributes_put_numbers(file, time_name, GB_HDF_DOUBLE, 1,
-                                             &state->second_per_time, err);
+        done = gb_hdf_put_numbers(file, time_name, GB_HDF_DOUBLE, 1,
+                                  &state->second_per_time, err);
     }
     for (int k = 0; k < NUMBERS && done; k++) {
         const void *value = (const char *)state + numbers[k].member;
-        done = gb_hdf_attributes_put_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
-                                             numbers[k].count, value, err);
+        done = gb_hdf_put_numbers(file, numbers[k].name, GB_HDF_DOUBLE, numbers[k].count,
+                                  value, err);
     }
     for (int k = 0; k < ROWS && done; k++) {
         const struct gb_state_array array = array_of(state, &rows[k]);
@@ -262,8 +261,8 @@ static void read_numbers(struct gb_state *state, struct gb_hdf *file)
 {
     for (int k = 0; k < NUMBERS; k++) {
         double value[NUMBER_MAX];
-        bool good = gb_hdf_attributes_get_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
-                                                  numbers[k].count, value, NULL);
+        bool good = gb_hdf_get_numbers(file, numbers[k].name, GB_HDF_DOUBLE,
+                                       numbers[k].count, value, NULL);
         for (int c = 0; c < numbers[k].count && good; c++) {
             good = value[c] >= numbers[k].low && value[c] <= numbers[k].high;
         }
@@ -287,8 +286,7 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
                    gb_hdf_get_array(file, &shape, *member_of(state, &rows[k]), err);
         }
     }
-    const bool summed =
-        gb_hdf_attributes_get_text(file, sum_name, kept, sizeof kept, NULL);
+    const bool summed = gb_hdf_get_text(file, sum_name, kept, sizeof kept, NULL);
     digest(state, sum);
     if (done && (some || summed) && (!summed || strcmp(kept, sum) != 0)) {
         done = gb_error_set(err, GB_ERR_INPUT,
@@ -297,7 +295,7 @@ bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const c
     }
     double second = 0.0;
     const bool timed =
-        gb_hdf_attributes_get_numbers(file, time_name, GB_HDF_DOUBLE, 1, &second, NULL);
+        gb_hdf_get_numbers(file, time_name, GB_HDF_DOUBLE, 1, &second, NULL);
     state->second_per_time =
         timed && isfinite(second) && second > 0.0 ? second : (double)NAN;
     read_numbers(state, file);
