@@ -68,7 +68,7 @@ enum gb_precision { GB_PRECISION_AUTO, GB_PRECISION_DOUBLE, GB_PRECISION_SINGLE 
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
 /* What a loading path does if a stress has no equilibrium. */
 enum gb_on_collapse { GB_COLLAPSE_STOP, GB_COLLAPSE_STRAIN };
-/* Formats of io/export/export.h, in the same order. */
+/* Formats of io/export.h, in the same order. */
 enum gb_live_format {
     GB_LIVE_NONE,
     GB_LIVE_EXTXYZ,

@@ -7,7 +7,7 @@
 #include "api/arguments.h"
 #include "api/array_private.h"
 #include "base/alloc.h"
-#include "io/state/state_stress.h"
+#include "io/state_forces.h"
 #include "run/experiment_private.h"
 
 /* Unit of an array. */
@@ -47,7 +47,7 @@ void gb_array_forget(struct gb_array_source *packing)
     gb_state_destroy(packing->state);
     gb_alloc_free(packing->diameter);
     gb_alloc_free(packing->stress);
-    gb_state_gaps_finish(&packing->gaps);
+    gb_state_forces_gaps_finish(&packing->gaps);
     packing->gaps_found = false;
     packing->state = NULL;
     packing->diameter = packing->stress = NULL;
@@ -300,13 +300,13 @@ LISTED(find_wall, wall, wall_count)
 LISTED(find_wall_force, wall_force, wall_count)
 
 /* The pairs across gaps, found where they are not yet.  NULL and err: those of
- * gb_state_gaps_init. */
+ * gb_state_forces_gaps_init. */
 static const struct gb_state_gaps *gaps_of(struct gb_array_source *packing,
                                            struct gb_error *err)
 {
     const struct gb_state *state = state_of(packing, err);
     if (state && !packing->gaps_found) {
-        packing->gaps_found = gb_state_gaps_init(&packing->gaps, state, err);
+        packing->gaps_found = gb_state_forces_gaps_init(&packing->gaps, state, err);
     }
     return packing->gaps_found ? &packing->gaps : NULL;
 }
@@ -344,7 +344,7 @@ static bool find_stress(struct gb_array_source *packing, struct rows *rows,
         packing->stress =
             gb_alloc_array(6 * (size_t)state->count, sizeof *packing->stress, err);
         if (packing->stress) {
-            gb_state_stress_tensor(state, gaps, packing->stress);
+            gb_state_forces_stress_tensor(state, gaps, packing->stress);
         }
     }
     if (!packing->stress) {

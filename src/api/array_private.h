@@ -3,7 +3,7 @@
 
 #include "greenbody/array.h"
 #include "greenbody/status.h"
-#include "io/state/state_gaps.h"
+#include "io/state_forces.h"
 #include "run/experiment.h"
 
 /* Arrays that the engine of a periodic cell has as arcs. */

@@ -10,7 +10,7 @@
 #include "hdf/hdf_record.h"
 #include "io/curve_csv.h"
 #include "io/follow.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 #include "run/checkpoint.h"
 
 struct gb_recorded_run {

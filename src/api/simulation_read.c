@@ -9,8 +9,8 @@
 #include "api/simulation_private.h"
 #include "base/alloc.h"
 #include "hdf/hdf_record.h"
-#include "io/state/state_optional.h"
-#include "io/state/state_record.h"
+#include "io/state.h"
+#include "io/state_record.h"
 #include "run/checkpoint.h"
 
 size_t gb_simulation_points(const struct gb_simulation *simulation)
@@ -128,10 +128,11 @@ bool gb_simulation_save(struct gb_simulation *simulation, const char *path,
     const enum gb_step_outcome last = simulation->loop.last;
     if (gb_simulation_points(simulation) == 0 ||
         (last != GB_STEP_POINT && last != GB_STEP_DONE)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: the packing is between two recorded points; a state belongs "
-                            "to a point",
-                            path);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%s: the packing is between two recorded points; a state belongs "
+            "to a point",
+            path);
     }
     struct gb_record *record = gb_alloc_array(1, sizeof *record, err);
     const bool done = record && write(simulation, record, path, err);

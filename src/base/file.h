@@ -45,4 +45,14 @@ bool gb_file_is_same(const char *a, const char *b);
  * Thread-safe. */
 long gb_file_fail_after(long k);
 
+/* The bytes of a regular file of at most `most` bytes, and a NUL behind them.  *text is
+ * for gb_alloc_free.  Errors: GB_ERR_INPUT (absent, no regular file, too long),
+ * GB_ERR_MACHINE, GB_ERR_MEMORY. */
+bool gb_file_read(const char *path, size_t most, char **text, size_t *length,
+                  struct gb_error *err);
+
+/* Descriptor of a regular file for reading; -1 with err as above.  Pipes, devices and
+ * folders are refused without waiting for their other end. */
+int gb_file_open(const char *path, struct gb_error *err);
+
 #endif

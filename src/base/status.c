@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 
 bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format, ...)
 {

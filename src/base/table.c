@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "base/units.h"
 
 struct gb_table {
@@ -328,7 +328,7 @@ bool gb_table_read_whole(struct gb_table **out, const char *path, const char *wo
         return false;
     }
     table->path = g_strdup(path);
-    if (!gb_read_file(path, GB_TABLE_BYTES_MAX, &table->text, &table->length, err) ||
+    if (!gb_file_read(path, GB_TABLE_BYTES_MAX, &table->text, &table->length, err) ||
         !parse(table, words, whole, err)) {
         gb_table_destroy(table);
         return false;

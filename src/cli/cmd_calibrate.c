@@ -2,7 +2,7 @@
 
 #include <glib.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"

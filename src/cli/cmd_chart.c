@@ -6,8 +6,8 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"

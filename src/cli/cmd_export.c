@@ -7,10 +7,9 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "figures/states.h"
-#include "io/export/export.h"
-#include "io/export/export_series.h"
+#include "io/export.h"
 #include "io/follow.h"
-#include "io/rundir_files.h"
+#include "io/rundir.h"
 
 /* The options of the command line. */
 struct request {

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/listing.h"
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"

@@ -8,8 +8,8 @@
 
 #include "base/alloc.h"
 #include "base/listing.h"
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -18,7 +18,7 @@
 #include "greenbody/status.h"
 #include "io/preset.h"
 #include "io/rundir.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "measure/fit/average.h"
 #include "measure/percolation.h"
 #include "measure/structure.h"

@@ -5,9 +5,9 @@
 #include <glib.h>
 
 #include "base/file.h"
-#include "base/text/nearest_word.h"
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
@@ -51,7 +51,7 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
             "--figure %.80s: %sexpected a name that greenbody plot --help lists, "
             "as time or densification",
             name ? name : "",
-            gb_nearest_word_in(name ? name : "", names, meant, sizeof meant));
+            gb_words_nearest_in(name ? name : "", names, meant, sizeof meant));
         g_free(names);
     }
     return found;

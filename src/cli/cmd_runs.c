@@ -7,13 +7,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "io/run_list.h"
 #include "io/rundir.h"
-#include "io/runs/run_line.h"
-#include "io/runs/run_list.h"
 #include "runner/runner.h"
 #include "tui/app/app.h"
 #include "tui/app/watch.h"
@@ -37,7 +36,7 @@ static void add(GPtrArray *list, const char *folder, enum names names)
     }
 }
 
-/* The runs (io/runs/run_list.h) below these folders, sorted.  Without folders: below the
+/* The runs (io/run_list.h) below these folders, sorted.  Without folders: below the
  * workbench's folder and below `runs` in the working folder, where `run` without --out puts
  * them.  g_ptr_array_unref. */
 static GPtrArray *runs_folders_list(char **folders)
@@ -309,15 +308,15 @@ static void print_line(const char *name, int cols, char *values)
     g_free(values);
 }
 
-/* A list of runs (io/runs/run_list.h) on stdout: a line each below a head, or with --json an
+/* A list of runs (io/run_list.h) on stdout: a line each below a head, or with --json an
  * object {"runs": [{...}, ...]}, in which what is not there is null. */
 static void runs_output_table(const GPtrArray *list)
 {
     const int cols = name_cols(list);
-    print_line("name", cols, gb_run_line_head(GB_RUN_LINE_ALL));
+    print_line("name", cols, gb_run_list_line_head(GB_RUN_LIST_LINE_ALL));
     for (guint i = 0; i < list->len; i++) {
         const struct gb_run_list_item *item = item_at(list, i);
-        print_line(item->name, cols, gb_run_line_values(item, GB_RUN_LINE_ALL));
+        print_line(item->name, cols, gb_run_list_line(item, GB_RUN_LIST_LINE_ALL));
     }
 }
 

@@ -6,8 +6,8 @@
 
 #include "base/number.h"
 #include "base/table.h"
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "measure/fit/lognormal.h"

@@ -17,7 +17,7 @@
 #include "figures/output_formats.h"
 #include "figures/sequence.h"
 #include "figures/states.h"
-#include "io/rundir_files.h"
+#include "io/rundir.h"
 
 /* The options of the command line. */
 struct request {

@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "base/listing.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"

@@ -4,7 +4,7 @@
 
 #include <glib.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "tui/app/app.h"

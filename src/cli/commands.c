@@ -4,7 +4,7 @@
 
 #include <glib.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 
 static const char runs[] = "Runs", many[] = "Many runs", packings[] = "Packings",
                   results[] = "Results", numerics[] = "Numerics", lists[] = "Lists";

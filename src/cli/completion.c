@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
 #include "cli/commands.h"
 #include "draw/picture_colours.h"
 #include "figures/figures.h"
 #include "greenbody/params.h"
-#include "io/export/export.h"
+#include "io/export.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
 #include "measure/fit/compaction/equations.h"

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/table.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "io/lab/lab_reader.h"
 
 enum { ANSWER_MAX = 1024, QUESTIONS_MAX = 10 };

@@ -15,8 +15,8 @@
 
 #include "base/built_with.h"
 #include "base/program.h"
-#include "base/text/nearest_word.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/completion.h"
 #include "cli/options.h"
@@ -105,8 +105,8 @@ static int refuse_word(const char *word)
 {
     char *names = gb_commands_names(), **presets = gb_preset_folders_list(), meant[64];
     struct gb_error err;
-    if (*gb_nearest_word_in(word, names, meant, sizeof meant) == '\0') {
-        gb_nearest_word(word, presets, meant, sizeof meant);
+    if (*gb_words_nearest_in(word, names, meant, sizeof meant) == '\0') {
+        gb_words_nearest(word, presets, meant, sizeof meant);
     }
     gb_error_set(&err, GB_ERR_INPUT,
                  "%.80s: no such option, command, file or preset; %scommands: %s; "

@@ -8,14 +8,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/completion.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
 #include "greenbody/status.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 #include "run/run_loop.h"
 #include "tui/term/settings.h"
 

@@ -13,12 +13,12 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "cli/options.h"
 #include "greenbody/status.h"
 #include "io/lock.h"
 #include "io/rundir.h"
-#include "io/status/stage_text.h"
+#include "io/status_json.h"
 #include "many/ensemble.h"
 #include "many/pool.h"
 #include "many/single_run.h"
@@ -371,7 +371,7 @@ static void format_stage(const struct gb_snapshot *shot, char *line, size_t size
     char left[48], where[128], density[32] = "";
     const enum gb_stage stage = shot->stage.stage;
     format_left(shot->seconds_left, left, sizeof left);
-    gb_stage_text_line(&shot->stage, where, sizeof where);
+    gb_status_json_stage_line(&shot->stage, where, sizeof where);
     if (shot->now_valid && (stage == GB_STAGE_PRESS || stage == GB_STAGE_UNLOADING)) {
         snprintf(density, sizeof density, "  density %.4f", shot->now.density);
     }

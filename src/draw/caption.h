@@ -12,7 +12,7 @@
 #include "draw/scene.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 /* Height of a line of the legend of forces, lines of text. */
 #define GB_CAPTION_LEGEND_LINE 1.45

@@ -10,7 +10,7 @@
 #include "draw/scene.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 /* Image of a packing: its settings, and the steps to a PNG (layout, scene, rendering,
  * caption, file). */

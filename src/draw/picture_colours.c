@@ -12,7 +12,7 @@
 #include "base/mat.h"
 #include "base/number.h"
 #include "draw/picture_style.h"
-#include "io/state/state_stress.h"
+#include "io/state_forces.h"
 #include "pack/cell/cell.h"
 
 enum start { FROM_DATA, FROM_ZERO };
@@ -265,12 +265,12 @@ static bool colour_pressure(struct gb_picture_style *style, const struct gb_stat
 {
     double *value = gb_alloc_array(style->count, sizeof *value, err);
     struct gb_state_gaps gaps = {0};
-    if (value == NULL || !gb_state_gaps_init(&gaps, state, err)) {
+    if (value == NULL || !gb_state_forces_gaps_init(&gaps, state, err)) {
         gb_alloc_free(value);
         return false;
     }
-    gb_state_stress_mean(state, &gaps, value);
-    gb_state_gaps_finish(&gaps);
+    gb_state_forces_stress_mean(state, &gaps, value);
+    gb_state_forces_gaps_finish(&gaps);
     for (size_t i = 0; i < style->count; i++) {
         value[i] *= mpa_per_pa;
     }

@@ -7,7 +7,7 @@
 
 #include "draw/image/palette.h"
 #include "greenbody/status.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 /* Style of a picture of a packing: visible particles, their colours, and the forces between
  * them as rods. */

@@ -8,7 +8,7 @@
 #include "draw/picture_style.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 enum gb_background { GB_BACKGROUND_WHITE, GB_BACKGROUND_DARK, GB_BACKGROUND_TRANSPARENT };
 

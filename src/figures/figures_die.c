@@ -10,7 +10,7 @@
 #include "figures/figures.h"
 #include "figures/series.h"
 #include "figures/states.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "many/die_summary.h"
 #include "measure/ball.h"
 #include "measure/density_map.h"

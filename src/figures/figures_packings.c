@@ -5,7 +5,7 @@
 #include "figures/figures.h"
 #include "figures/series.h"
 #include "figures/states.h"
-#include "io/state/state_forces.h"
+#include "io/state_forces.h"
 #include "measure/structure.h"
 #include "scene/loading_kind.h"
 

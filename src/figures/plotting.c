@@ -6,10 +6,9 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/read_file.h"
 #include "figures/output_formats.h"
 #include "figures/states.h"
-#include "io/rundir_files.h"
+#include "io/rundir.h"
 
 /* "x.png" -> "x.csv"; g_free. */
 static char *csv_path(const char *path)
@@ -34,7 +33,7 @@ static bool check_twin(const char *csv, enum gb_plotting_existing existing,
     char *old = NULL;
     size_t length = 0;
     if (existing == GB_PLOTTING_REPLACE ||
-        !gb_read_file(csv, SIZE_MAX, &old, &length, NULL)) {
+        !gb_file_read(csv, SIZE_MAX, &old, &length, NULL)) {
         return true;
     }
     const bool same = length == text->len && memcmp(old, text->str, length) == 0;

@@ -11,7 +11,7 @@
 #include "figures/frame_writer.h"
 #include "figures/output_formats.h"
 #include "figures/states.h"
-#include "io/rundir_files.h"
+#include "io/rundir.h"
 
 enum { MAX_FRAMES = 10000 };
 

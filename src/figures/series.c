@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/listing.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "many/runset.h"
 #include "measure/fit/average.h"
 #include "scene/loading_kind.h"

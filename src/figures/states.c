@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "base/units.h"
 #include "figures/figures.h"
 #include "figures/series.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "measure/fit/average.h"
 #include "run/record/kept_states.h"
 
@@ -21,7 +21,7 @@ static char *read_preset(const char *folder)
     char *text = NULL;
     size_t length = 0;
     char *file = g_build_filename(folder, "preset.ini", NULL);
-    const bool good = gb_read_file(file, BYTES_MAX, &text, &length, NULL) &&
+    const bool good = gb_file_read(file, BYTES_MAX, &text, &length, NULL) &&
                       g_utf8_validate(text, -1, NULL);
     char *copy = good ? g_strdup(text) : NULL;
     gb_alloc_free(text);

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "figures/figures.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "scene/field/keep_points.h"
 
 /* Kept states of a run directory: the last, state.h5, and those in its folder snapshots. */

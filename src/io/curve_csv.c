@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "base/table.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "io/point_columns.h"
 #include "io/text_file.h"
 #include "scene/derived.h"

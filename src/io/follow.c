@@ -10,8 +10,7 @@
 #include <glib.h>
 
 #include "io/preset.h"
-#include "io/status/stage_text.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err)
@@ -71,8 +70,8 @@ static void fill_stage(JsonObject *json, struct gb_stage_report *stage)
         return;
     }
     JsonObject *from = json_node_get_object(node);
-    stage->stage = gb_stage_text_find(word(from, "name"));
-    stage->measure = gb_stage_text_find_quantity(word(from, "measure"));
+    stage->stage = gb_status_json_stage_find(word(from, "name"));
+    stage->measure = gb_status_json_stage_quantity(word(from, "measure"));
     stage->value = number(from, "value", (double)NAN);
     stage->goal = number(from, "goal", (double)NAN);
     stage->share = number(from, "share", (double)NAN);

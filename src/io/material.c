@@ -5,7 +5,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "io/preset.h"
 #include "io/preset_folders.h"
 
@@ -108,9 +108,9 @@ static void rename_title(struct gb_params *params, const char *before)
 {
     const char *word = find_word(params->title, before);
     if (word != NULL) {
-        char *title = g_strdup_printf("%.*s%s%s", (int)(word - params->title),
-                                      params->title, params->material,
-                                      word + strlen(before));
+        char *title =
+            g_strdup_printf("%.*s%s%s", (int)(word - params->title), params->title,
+                            params->material, word + strlen(before));
         if (strlen(title) < sizeof params->title) {
             g_strlcpy(params->title, title, sizeof params->title);
         }
@@ -154,7 +154,7 @@ char *gb_material_guessed(const char *path)
     GString *keys = g_string_new(NULL);
     bool guessed = false;
     size_t length = 0;
-    (void)gb_read_file(path, BYTES_MAX, &text, &length, NULL);
+    (void)gb_file_read(path, BYTES_MAX, &text, &length, NULL);
     char **line = g_strsplit(text != NULL ? text : "", "\n", -1);
     for (int i = 0; line[i] != NULL; i++) {
         const char *equals = strchr(line[i], '=');

@@ -2,21 +2,193 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <glib.h>
 #include <linux/magic.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
-#include <glib.h>
-
-#include "base/text/nearest_word.h"
-#include "base/text/text_list.h"
-#include "io/key_lines.h"
+#include "base/words.h"
+#include "greenbody/status.h"
 #include "io/preset_folders.h"
 #include "io/text_file.h"
 #include "scene/size/size_table.h"
+
+/* One line of the text with blanks and carriage return cut off. */
+struct piece {
+    const char *start, *stop; /* trimmed */
+    int line;
+    size_t end;
+};
+
+struct scanner {
+    struct gb_key_lines *lines;
+    const char *path;
+    const char *text;
+    const char *group; /* current one, owned by its line */
+    GHashTable *seen;  /* "group\nkey" -> line number */
+};
+
+static void add(struct gb_key_lines *lines, struct gb_key_line item)
+{
+    if (lines->count == lines->room) {
+        lines->room = lines->room ? 2 * lines->room : 64;
+        lines->item = g_renew(struct gb_key_line, lines->item, lines->room);
+    }
+    lines->item[lines->count++] = item;
+}
+
+static bool refuse(const struct scanner *scanner, const struct piece *piece,
+                   const char *why, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_INPUT, "%s:%d: %.*s: %s", scanner->path, piece->line,
+                        (int)MIN(piece->stop - piece->start, 80), piece->start, why);
+}
+
+static bool take_group(struct scanner *scanner, const struct piece *piece,
+                       struct gb_error *err)
+{
+    const ptrdiff_t length = piece->stop - piece->start;
+    if (length < 3 || piece->stop[-1] != ']') {
+        return refuse(scanner, piece, "expected [group]", err);
+    }
+    struct gb_key_line item = {.line = piece->line, .end = piece->end};
+    item.group = g_strndup(piece->start + 1, (size_t)length - 2);
+    add(scanner->lines, item);
+    scanner->group = item.group;
+    return true;
+}
+
+/* GKeyFile would take the last of two equal keys silently. */
+static bool take_once(struct scanner *scanner, const struct piece *piece, const char *key,
+                      struct gb_error *err)
+{
+    char *name = g_strconcat(scanner->group, "\n", key, NULL);
+    const int first = GPOINTER_TO_INT(g_hash_table_lookup(scanner->seen, name));
+    if (first == 0) {
+        g_hash_table_insert(scanner->seen, name, GINT_TO_POINTER(piece->line));
+        return true;
+    }
+    gb_error_set(err, GB_ERR_INPUT, "%s:%d: %.40s.%.40s is given twice, first in line %d",
+                 scanner->path, piece->line, scanner->group, key, first);
+    g_free(name);
+    return false;
+}
+
+static bool take_key(struct scanner *scanner, const struct piece *piece,
+                     struct gb_error *err)
+{
+    const char *equals = memchr(piece->start, '=', (size_t)(piece->stop - piece->start));
+    if (!equals || equals == piece->start) {
+        return refuse(scanner, piece, "expected [group], key = value or # comment", err);
+    }
+    if (!scanner->group) {
+        return refuse(scanner, piece, "a [group] must come before the first key", err);
+    }
+    const char *value = equals + 1;
+    while (value < piece->stop && g_ascii_isspace(*value)) {
+        value++;
+    }
+    struct gb_key_line item = {.line = piece->line, .end = piece->end};
+    item.value = (size_t)(value - scanner->text);
+    item.value_end = (size_t)(piece->stop - scanner->text);
+    item.group = g_strdup(scanner->group);
+    item.key = g_strchomp(g_strndup(piece->start, (size_t)(equals - piece->start)));
+    add(scanner->lines, item);
+    return take_once(scanner, piece, item.key, err);
+}
+
+static bool take_line(struct scanner *scanner, const struct piece *piece,
+                      struct gb_error *err)
+{
+    if (memchr(piece->start, '\0', (size_t)(piece->stop - piece->start))) {
+        return refuse(scanner, piece, "NUL bytes are not text", err);
+    }
+    if (!g_utf8_validate(piece->start, piece->stop - piece->start, NULL)) {
+        return refuse(scanner, piece, "not valid UTF-8", err);
+    }
+    if (piece->start == piece->stop || *piece->start == '#') {
+        return true;
+    }
+    return *piece->start == '[' ? take_group(scanner, piece, err)
+                                : take_key(scanner, piece, err);
+}
+
+static bool take_all(struct scanner *scanner, size_t length, struct gb_error *err)
+{
+    const char *at = scanner->text;
+    const char *last = at + length;
+    for (int line = 1; at < last; line++) {
+        const char *newline = memchr(at, '\n', (size_t)(last - at));
+        struct piece piece = {
+            .start = at, .stop = newline ? newline : last, .line = line};
+        at = newline ? newline + 1 : last;
+        piece.end = (size_t)(at - scanner->text);
+        while (piece.start < piece.stop && g_ascii_isspace(*piece.start)) {
+            piece.start++;
+        }
+        while (piece.stop > piece.start && g_ascii_isspace(piece.stop[-1])) {
+            piece.stop--;
+        }
+        if (!take_line(scanner, &piece, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gb_preset_lines_init(struct gb_key_lines *lines, const char *path, const char *text,
+                          size_t length, struct gb_error *err)
+{
+    *lines = (struct gb_key_lines){0};
+    struct scanner scanner = {.lines = lines, .path = path, .text = text};
+    scanner.seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    const bool good = take_all(&scanner, length, err);
+    g_hash_table_destroy(scanner.seen);
+    if (!good) {
+        gb_preset_lines_finish(lines);
+    }
+    return good;
+}
+
+void gb_preset_lines_finish(struct gb_key_lines *lines)
+{
+    for (size_t i = 0; i < lines->count; i++) {
+        g_free(lines->item[i].group);
+        g_free(lines->item[i].key);
+    }
+    g_free(lines->item);
+    *lines = (struct gb_key_lines){0};
+}
+
+const struct gb_key_line *gb_preset_lines_find(const struct gb_key_lines *lines,
+                                               const char *group, const char *key)
+{
+    for (size_t i = 0; i < lines->count; i++) {
+        const struct gb_key_line *item = &lines->item[i];
+        if (strcmp(item->group, group) == 0 && g_strcmp0(item->key, key) == 0) {
+            return item;
+        }
+    }
+    return NULL;
+}
+
+/* Offset at which a new key of the group goes: behind its last key or its header; text of
+ * `length` bytes ends there when the group does not exist. */
+static size_t key_lines_group_end(const struct gb_key_lines *lines, const char *group,
+                                  size_t length)
+{
+    for (size_t i = lines->count; i > 0; i--) {
+        if (strcmp(lines->item[i - 1].group, group) == 0) {
+            return lines->item[i - 1].end;
+        }
+    }
+    return length;
+}
 
 /* A preset is a page of text; more is a mistake or an attack. */
 enum { PRESET_BYTES_MAX = 1 << 20 };
@@ -202,7 +374,7 @@ void gb_preset_destroy(struct gb_preset *preset)
     if (!preset) {
         return;
     }
-    gb_key_lines_finish(&preset->lines);
+    gb_preset_lines_finish(&preset->lines);
     g_string_free(preset->text, TRUE);
     g_free(preset->path);
     g_free(preset);
@@ -227,8 +399,8 @@ static bool load_path(struct gb_preset *preset, const char *path, struct gb_erro
         return false;
     }
     gb_params_init(&preset->params);
-    return gb_key_lines_init(&preset->lines, path, preset->text->str, preset->text->len,
-                             err) &&
+    return gb_preset_lines_init(&preset->lines, path, preset->text->str,
+                                preset->text->len, err) &&
            apply(preset, err);
 }
 
@@ -238,11 +410,11 @@ static void refuse_name(const char *name, struct gb_error *err)
     enum { NAME_BYTES = 80, TEXT_BYTES = 60, PRESETS_BYTES = 80 };
     char meant[64];
     char **known = gb_preset_folders_list(), **folders = gb_preset_folders();
-    gb_nearest_word(name, known, meant, sizeof meant);
+    gb_words_nearest(name, known, meant, sizeof meant);
     const size_t bytes = sizeof err->text - MIN(strlen(name), NAME_BYTES) -
                          strlen(meant) - TEXT_BYTES - PRESETS_BYTES;
-    char *searched = gb_text_list_join(folders, bytes);
-    char *list = gb_text_list_join(known, bytes + PRESETS_BYTES - strlen(searched));
+    char *searched = gb_words_join(folders, bytes);
+    char *list = gb_words_join(known, bytes + PRESETS_BYTES - strlen(searched));
     gb_error_set(err, GB_ERR_INPUT,
                  "%.*s: no such file or preset; %slooked in %s; presets: %s", NAME_BYTES,
                  name, meant, *searched != '\0' ? searched : "folders of long names",
@@ -302,7 +474,7 @@ const char *gb_preset_path(const struct gb_preset *preset)
 
 bool gb_preset_has(const struct gb_preset *preset, const char *group, const char *key)
 {
-    return gb_key_lines_find(&preset->lines, group, key) != NULL;
+    return gb_preset_lines_find(&preset->lines, group, key) != NULL;
 }
 
 const char *gb_preset_other_group(const struct gb_preset *preset, const char *group)
@@ -342,21 +514,21 @@ static bool is_fallback(const struct gb_field *field, const char *now)
 /* Indexes the text again after an edit; it was valid before, so it is now. */
 static bool index_again(struct gb_preset *preset, struct gb_error *err)
 {
-    gb_key_lines_finish(&preset->lines);
-    return gb_key_lines_init(&preset->lines, preset->path, preset->text->str,
-                             preset->text->len, err);
+    gb_preset_lines_finish(&preset->lines);
+    return gb_preset_lines_init(&preset->lines, preset->path, preset->text->str,
+                                preset->text->len, err);
 }
 
 static void insert_key(struct gb_preset *preset, const struct gb_field *field,
                        const char *now)
 {
     GString *text = preset->text;
-    size_t at = gb_key_lines_group_end(&preset->lines, field->group, text->len);
+    size_t at = key_lines_group_end(&preset->lines, field->group, text->len);
     GString *added = g_string_new(NULL);
     if (at > 0 && text->str[at - 1] != '\n') {
         g_string_append_c(added, '\n');
     }
-    if (!gb_key_lines_find(&preset->lines, field->group, NULL)) {
+    if (!gb_preset_lines_find(&preset->lines, field->group, NULL)) {
         g_string_append_printf(added, "%s[%s]\n", at > 0 ? "\n" : "", field->group);
     }
     g_string_append_printf(added, "%s =%s%s\n", field->key, *now ? " " : "", now);
@@ -371,7 +543,7 @@ static bool update_field(struct gb_preset *preset, const struct gb_field *field,
     char now[GB_PARAMS_VALUE_MAX];
     gb_params_format(&preset->params, field, now, sizeof now);
     const struct gb_key_line *line =
-        gb_key_lines_find(&preset->lines, field->group, field->key);
+        gb_preset_lines_find(&preset->lines, field->group, field->key);
     if (line ? has_value(preset, line, field, path, now)
              : extent == GB_PRESET_CHANGED_KEYS && is_fallback(field, now)) {
         return true;

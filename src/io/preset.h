@@ -2,8 +2,10 @@
 #define GB_IO_PRESET_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "greenbody/params.h"
+#include "greenbody/status.h"
 
 /* A preset: parameters plus the key file they came from, so that saving keeps comments
  * and unknown keys. */
@@ -40,5 +42,33 @@ enum gb_preset_extent {
  * replaced, comments and unknown keys kept. */
 bool gb_preset_save(struct gb_preset *preset, const char *path,
                     enum gb_preset_extent extent, struct gb_error *err);
+
+/* Where the keys of a key file stand.  GKeyFile parses values but forgets line numbers
+ * and the exact bytes, which messages and saving need. */
+struct gb_key_line {
+    char *group;
+    char *key;        /* NULL: the line of a [group] */
+    int line;         /* from 1 */
+    size_t value;     /* offset of the first byte of the value, blanks skipped */
+    size_t value_end; /* behind its last byte, trailing blanks left out */
+    size_t end;       /* offset of the next line */
+};
+
+struct gb_key_lines {
+    struct gb_key_line *item;
+    size_t count, room;
+};
+
+/* Indexes text.  Errors (GB_ERR_INPUT) begin with "path:line: ": NUL bytes, invalid
+ * UTF-8, lines that are neither group, key nor comment, keys before a group, duplicate
+ * keys. */
+bool gb_preset_lines_init(struct gb_key_lines *lines, const char *path, const char *text,
+                          size_t length, struct gb_error *err);
+
+void gb_preset_lines_finish(struct gb_key_lines *lines); /* zeroed is fine */
+
+/* Line of group.key, or of [group] for key = NULL; NULL when there is none. */
+const struct gb_key_line *gb_preset_lines_find(const struct gb_key_lines *lines,
+                                               const char *group, const char *key);
 
 #endif

@@ -66,4 +66,11 @@ void gb_rundir_remove(struct gb_rundir *dir);
  * become the first 40, "~~" and a checksum. */
 void gb_rundir_name_value(GString *name, const char *value, bool free_text);
 
+/* Refuses a file of a run as the target of another command: a name that runs write, in a
+ * directory with a preset.ini, or in its folder of snapshots.  Errors: GB_ERR_INPUT. */
+bool gb_rundir_files_protect(const char *path, struct gb_error *err);
+
+/* Removes temporary files that a killed engine has left; the caller holds the lock. */
+void gb_rundir_files_tidy(const char *path);
+
 #endif

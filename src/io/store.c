@@ -14,7 +14,7 @@
 #include "io/curve_csv.h"
 #include "io/preset.h"
 #include "io/rundir.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 #include "io/text_file.h"
 #include "scene/imported/imported.h"
 #include "scene/loading_kind.h"

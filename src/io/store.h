@@ -8,7 +8,7 @@
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
 #include "io/rundir.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 /* The files of a run directory: preset.ini, curve.csv, events.log, status.json, state.h5
  * (docs/manual.md).  Each is either appended line by line or replaced atomically.  Once

@@ -23,7 +23,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "greenbody/params.h"
 
 enum { COUNT_MOST = 10000000, TEXT_BYTES = 16384 };
@@ -88,7 +88,7 @@ struct gb_launch gb_pool_launch(void)
 /* The beginning of a file of the kernel, which has no size before it is read. */
 static bool read_text(const char *path, char text[TEXT_BYTES])
 {
-    const int file = gb_read_file_open(path, NULL);
+    const int file = gb_file_open(path, NULL);
     const ssize_t length = file >= 0 ? read(file, text, TEXT_BYTES - 1) : -1;
     if (file >= 0) {
         close(file);

@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "greenbody/params.h"
 #include "io/follow.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 #include "scene/seed.h"
 
 /* Comparison of two scenes key by key. */

@@ -7,7 +7,7 @@
 #include "io/follow.h"
 #include "io/preset.h"
 #include "io/rundir.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 #include "many/runset.h"
 #include "run/checkpoint.h"
 #include "run/run_loop.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "base/vec.h"
 #include "pack/cell/world.h"
 #include "pack/kernel/pair_forces.h"

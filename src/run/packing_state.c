@@ -9,7 +9,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/snapshot.h"
 #include "io/point_columns.h"
-#include "io/state/state_record.h"
+#include "io/state_record.h"
 #include "measure/observe.h"
 #include "measure/observe_die.h"
 #include "measure/tensor.h"

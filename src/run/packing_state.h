@@ -3,7 +3,7 @@
 
 #include "greenbody/curve.h"
 #include "greenbody/snapshot.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "measure/tensor.h"
 #include "solve/loading/loading.h"
 

@@ -16,7 +16,7 @@
 #include "api/simulation_private.h"
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/thread.h"
+#include "base/team.h"
 #include "io/curve_csv.h"
 #include "io/follow.h"
 #include "io/rundir.h"
@@ -477,7 +477,7 @@ static bool read_run(struct gb_runner *runner)
     struct gb_error err = {0};
     if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
         !gb_curve_csv_read(runner->directory, &runner->params, runner->simulation->curve,
-                         &err)) {
+                           &err)) {
         if (shown->error.code == GB_OK) {
             publish_event(runner, err.text);
         }
@@ -649,7 +649,7 @@ static bool launch(struct gb_runner **out, struct gb_runner *runner,
     pthread_mutex_init(&runner->mutex, NULL);
     pthread_cond_init(&runner->wake, NULL);
     publish_state(runner, GB_RUN_PACKING);
-    if (!gb_thread_start(&runner->thread, work, runner, "the engine thread", err)) {
+    if (!gb_team_start_thread(&runner->thread, work, runner, "the engine thread", err)) {
         pthread_cond_destroy(&runner->wake);
         pthread_mutex_destroy(&runner->mutex);
         free_runner(runner);

@@ -8,7 +8,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "runner/publish.h"
 
 /* One experiment in a background thread, which blocks all signals. */

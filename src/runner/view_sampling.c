@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
-#include "io/state/state_stress.h"
+#include "io/state_forces.h"
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
 #include "scene/loading_kind.h"
@@ -199,13 +199,13 @@ void gb_view_sampling_take_state(const struct gb_state *state, bool pressed,
     }
     note_start(state, pressed, start);
     struct gb_state_gaps gaps = {0};
-    double *stress = gb_state_gaps_init(&gaps, state, NULL)
+    double *stress = gb_state_forces_gaps_init(&gaps, state, NULL)
                          ? gb_alloc_array((size_t)state->count, sizeof *stress, NULL)
                          : NULL;
     if (stress != NULL) {
-        gb_state_stress_mean(state, &gaps, stress);
+        gb_state_forces_stress_mean(state, &gaps, stress);
     }
-    gb_state_gaps_finish(&gaps);
+    gb_state_forces_gaps_finish(&gaps);
     copy_front(state, start, stress, sample);
     gb_alloc_free(stress);
     if (!in_die) {

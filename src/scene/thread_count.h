@@ -4,7 +4,7 @@
 #include "scene/model.h"
 
 /* Particles per thread below which a second thread costs more than it gains; above it the
- * team finds out (base/team/team.h). */
+ * team finds out (base/team.h). */
 enum { GB_PARTICLES_PER_THREAD = 500 };
 
 /* Threads that a run may use: numerics.threads or, if that is automatic, the cores of this

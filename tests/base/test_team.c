@@ -7,7 +7,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/team/team.h"
+#include "base/team.h"
 
 static struct gb_team *team_of(int threads)
 {

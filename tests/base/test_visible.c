@@ -1,4 +1,4 @@
-#include "base/text/visible.h"
+#include "base/visible.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -15,7 +15,7 @@
 #include <gsl/gsl_statistics.h>
 
 #include "base/clock.h"
-#include "base/thread.h"
+#include "base/team.h"
 #include "bench.h"
 #include "measure/observe.h"
 #include "pack/kernel/simd.h"
@@ -74,8 +74,8 @@ static bool time_busy(const struct packing *packing, int threads, double *median
     atomic_bool over;
     uint64_t hash;
     atomic_init(&over, false);
-    if (!gb_thread_start(&other, compute, &over, "the thread that keeps a core busy",
-                         err)) {
+    if (!gb_team_start_thread(&other, compute, &over, "the thread that keeps a core busy",
+                              err)) {
         return false;
     }
     const bool good = time_on(packing, threads, median, &hash, err);

@@ -11,7 +11,6 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/read_file.h"
 #include "bench.h"
 #include "io/store.h"
 #include "run/checkpoint.h"
@@ -38,7 +37,7 @@ static bool copy_file(const char *directory, double *seconds, gsize *bytes,
     char *from = g_build_filename(directory, "state.h5", NULL);
     char *to = g_build_filename(directory, "again.h5", NULL);
     char *data = NULL;
-    bool good = gb_read_file(from, SIZE_MAX, &data, bytes, err);
+    bool good = gb_file_read(from, SIZE_MAX, &data, bytes, err);
     const double start = gb_clock_s();
     good = good && gb_file_replace(to, data, *bytes, err);
     *seconds = gb_clock_s() - start;

@@ -84,7 +84,7 @@ is 'also through a pipe of the shell' [ $? -eq 0 ]
 # --- functions of GLib that wait ---------------------------------------------------------------
 grep -rn 'g_file_get_contents\|g_key_file_load_from_file' "$(dirname "$presets")/src" \
     --include='*.c' >waiting
-is 'files are read by read_file.h' [ ! -s waiting ]
+is 'files are read by file.h' [ ! -s waiting ]
 [ ! -s waiting ] || sed 's/^/# /' waiting
 
 echo "1..$tests"

@@ -7,7 +7,7 @@
 
 #include "draw/image/palette.h"
 #include "draw/picture_colours.h"
-#include "io/state/state_stress.h"
+#include "io/state_forces.h"
 
 /* Four particles in a row along z; the last touches the first through the wall.  The
  * contacts press with 1, 2, pull with 0.5, and press with 0 over the wall. */
@@ -79,7 +79,7 @@ static void test_pressure(void)
     double pressure[4];
     double sum = 0.0;
     double solid = 0.0;
-    gb_state_stress_mean(state, &(struct gb_state_gaps){0}, pressure);
+    gb_state_forces_stress_mean(state, &(struct gb_state_gaps){0}, pressure);
     for (int i = 0; i < 4; i++) {
         sum += pressure[i] * pow(state->radius[i], 3.0);
         solid += pow(state->radius[i], 3.0);

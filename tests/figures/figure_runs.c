@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "figure_folder.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "pack/die/die.h"
 
 /* Sixty-four particles of two sizes on a grid, neighbours along z in contact. */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/state/state.h"
+#include "io/state.h"
 
 /* The cell of a column of the series as CSV; NaN when empty. */
 static double csv_cell(const struct gb_series *series, const char *column, int row)

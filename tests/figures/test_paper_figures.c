@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/state/state.h"
+#include "io/state.h"
 
 /* Rates of P2, 1/s. */
 static const double rates[5] = {6.8e8, 6.8e7, 6.8e6, 6.8e5, 6.8e4};

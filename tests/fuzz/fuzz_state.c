@@ -4,7 +4,7 @@
 #include "fuzz/target.h"
 
 #include "hdf/hdf_record.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 static struct gb_record record;
 

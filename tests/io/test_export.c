@@ -1,13 +1,13 @@
 /* States as files of other programs, read back and compared. */
-#include "io/export/export.h"
+#include "io/export.h"
 
 #include <math.h>
 #include <string.h>
 
 #include <glib.h>
 
-#include "io/state/state_optional.h"
-#include "io/state/state_stress.h"
+#include "io/state.h"
+#include "io/state_forces.h"
 
 /* Two pairs of particles in a tilted cell; the second touches across a boundary. */
 static struct gb_state *make_state(void)
@@ -108,8 +108,8 @@ static void test_stress(void)
     struct gb_state *state = make_state();
     const struct gb_state_gaps none = {0};
     double stress[4 * 6], mean[4], sum[6] = {0.0};
-    gb_state_stress_tensor(state, &none, stress);
-    gb_state_stress_mean(state, &none, mean);
+    gb_state_forces_stress_tensor(state, &none, stress);
+    gb_state_forces_stress_mean(state, &none, mean);
     for (int i = 0; i < 4; i++) {
         for (int c = 0; c < 6; c++) {
             sum[c] += stress[6 * i + c] / 4.0;

@@ -8,7 +8,7 @@
 
 #include <glib.h>
 
-#include "io/export/export.h"
+#include "io/export.h"
 #include "scene/imported/imported.h"
 
 enum { COUNT = 40 };
@@ -113,8 +113,7 @@ static void compare_texts(const char *before, const char *after, double share)
     g_strfreev(b);
 }
 
-static void check_round_trip(const char *format, bool one_size, bool planar,
-                             bool tilted)
+static void check_round_trip(const char *format, bool one_size, bool planar, bool tilted)
 {
     struct gb_error err = {0};
     struct gb_state *state = make_state(one_size, planar, tilted);
@@ -175,7 +174,8 @@ static void test_own_table(void)
 static void test_last_frame(void)
 {
     struct gb_error err = {0};
-    struct gb_state *first = make_state(true, false, false), *last = make_state(true, false, false);
+    struct gb_state *first = make_state(true, false, false),
+                    *last = make_state(true, false, false);
     first->cell[2] = 12.0;
     for (int k = 0; k < 2; k++) {
         const char *format = k == 0 ? "extxyz" : "lammps-dump";

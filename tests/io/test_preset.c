@@ -9,8 +9,6 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "io/key_lines.h"
-
 static char *folder; /* scratch, removed at the end */
 
 static char *in_folder(const char *name)
@@ -140,11 +138,11 @@ static void test_complete(void)
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     struct gb_key_lines lines;
-    g_assert_true(gb_key_lines_init(&lines, path, text, strlen(text), NULL));
+    g_assert_true(gb_preset_lines_init(&lines, path, text, strlen(text), NULL));
     for (size_t i = 0; i < count; i++) {
-        g_assert_nonnull(gb_key_lines_find(&lines, fields[i].group, fields[i].key));
+        g_assert_nonnull(gb_preset_lines_find(&lines, fields[i].group, fields[i].key));
     }
-    gb_key_lines_finish(&lines);
+    gb_preset_lines_finish(&lines);
     g_free(text);
     g_free(path);
 }

@@ -3,8 +3,8 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
+#include "io/run_list.h"
 #include "io/rundir.h"
-#include "io/runs/run_delete.h"
 
 /* Deleting the directory of a run. */
 
@@ -29,8 +29,8 @@ static void test_tree(void)
 {
     struct gb_error err = {0};
     char *directory = make_run("past");
-    g_assert_cmpint(gb_run_delete_count(directory), ==, 2);
-    g_assert_true(gb_run_delete(directory, &err));
+    g_assert_cmpint(gb_run_list_count_files(directory), ==, 2);
+    g_assert_true(gb_run_list_delete(directory, &err));
     g_assert_false(g_file_test(directory, G_FILE_TEST_EXISTS));
     g_free(directory);
 }
@@ -46,7 +46,7 @@ static void test_links(void)
     g_assert_cmpint(g_mkdir(kept, 0700), ==, 0);
     g_assert_true(g_file_set_contents(precious, "x", -1, NULL));
     g_assert_cmpint(symlink(kept, link), ==, 0);
-    g_assert_true(gb_run_delete(directory, &err));
+    g_assert_true(gb_run_list_delete(directory, &err));
     g_assert_false(g_file_test(directory, G_FILE_TEST_EXISTS));
     g_assert_true(g_file_test(precious, G_FILE_TEST_EXISTS));
     g_assert_cmpint(g_remove(precious), ==, 0);
@@ -63,16 +63,16 @@ static void test_refused(void)
     struct gb_rundir engine;
     char *directory = make_run("live");
     g_assert_true(gb_rundir_open(&engine, directory, &err));
-    g_assert_false(gb_run_delete(directory, &err));
+    g_assert_false(gb_run_list_delete(directory, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    g_assert_cmpint(gb_run_delete_count(directory), ==, 2);
+    g_assert_cmpint(gb_run_list_count_files(directory), ==, 2);
     gb_rundir_finish(&engine);
     err = (struct gb_error){0};
-    g_assert_false(gb_run_delete(base, &err)); /* no run directory */
+    g_assert_false(gb_run_list_delete(base, &err)); /* no run directory */
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    g_assert_cmpint(gb_run_delete_count(directory), ==, 2);
+    g_assert_cmpint(gb_run_list_count_files(directory), ==, 2);
     err = (struct gb_error){0};
-    g_assert_true(gb_run_delete(directory, &err));
+    g_assert_true(gb_run_list_delete(directory, &err));
     g_free(directory);
 }
 

@@ -1,7 +1,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "io/runs/run_last_point.h"
+#include "io/run_list.h"
 
 /* The last row of a curve, from the ends of its file. */
 
@@ -14,14 +14,15 @@ static void write_curve(const char *text)
     g_free(path);
 }
 
-static const char head[] = "# greenbody\n# comment, with commas\nbranch,step,density,p_MPa\n";
+static const char head[] =
+    "# greenbody\n# comment, with commas\nbranch,step,density,p_MPa\n";
 
 static void check(const char *rows, double density, double pressure_pa)
 {
     double a = 0.0, b = 0.0;
     char *text = g_strconcat(head, rows, NULL);
     write_curve(text);
-    g_assert_true(gb_run_last_point_read(folder, &a, &b));
+    g_assert_true(gb_run_list_last_point(folder, &a, &b));
     g_assert_cmpfloat(a, ==, density);
     g_assert_cmpfloat_with_epsilon(b, pressure_pa, 1e-6);
     g_free(text);
@@ -31,7 +32,7 @@ static void refuse(const char *text)
 {
     double a = 0.25, b = 0.5;
     write_curve(text);
-    g_assert_false(gb_run_last_point_read(folder, &a, &b));
+    g_assert_false(gb_run_list_last_point(folder, &a, &b));
 }
 
 static void test_rows(void)
@@ -61,7 +62,7 @@ static void test_long(void)
 static void test_absent(void)
 {
     double a = 0.0, b = 0.0;
-    g_assert_false(gb_run_last_point_read("/nowhere", &a, &b));
+    g_assert_false(gb_run_list_last_point("/nowhere", &a, &b));
 }
 
 int main(int argc, char **argv)

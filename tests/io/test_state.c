@@ -1,7 +1,7 @@
 /* state.h5: what is written is read back bit for bit; what is damaged is refused in one
  * line; a disk that fails leaves the old file. */
 #include "hdf/hdf.h"
-#include "io/state/state.h"
+#include "io/state.h"
 
 #include <glib.h>
 #include <glib/gstdio.h>

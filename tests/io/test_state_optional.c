@@ -1,6 +1,6 @@
 /* Velocities, resultants, contact radii and numbers of pictures of a state: written, read back bit for bit, found
  * from the record of a run, refused when damaged. */
-#include "io/state/state_optional.h"
+#include "io/state.h"
 
 #include <math.h>
 #include <string.h>

@@ -15,8 +15,7 @@
 #include "io/point_columns.h"
 #include "io/preset.h"
 #include "io/rundir.h"
-#include "io/rundir_files.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 #include "io/store.h"
 
 static char *base; /* a folder of its own for each test */

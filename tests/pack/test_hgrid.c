@@ -6,7 +6,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/team/team.h"
+#include "base/team.h"
 
 typedef double row[4];
 

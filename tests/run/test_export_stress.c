@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "common/scene.h"
-#include "io/export/export.h"
-#include "io/state/state_record.h"
+#include "io/export.h"
+#include "io/state_record.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 

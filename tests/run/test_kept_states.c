@@ -6,7 +6,7 @@
 
 #include "base/table.h"
 #include "common/scene.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "many/single_run.h"
 #include "run/record/run_recorder.h"
 #include "scene/field/keep_points.h"

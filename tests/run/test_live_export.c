@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "common/scene.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "run/record/live_export.h"
 #include "run/record/run_recorder.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "common/scene.h"
-#include "io/state/state_record.h"
+#include "io/state_record.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 
@@ -40,10 +40,10 @@ static void repeat(struct gb_record *to, const struct gb_record *from, int times
         const size_t bytes = gb_record_bytes(item);
         g_assert_true(!of_pairs || item->rows == pairs);
         struct gb_record_item *copy =
-            item->f32 ? gb_record_add_f32(to, item->name, rows, item->columns, item->unit,
-                                          NULL)
-                      : gb_record_add(to, item->name, item->type, rows, item->columns,
-                                      item->unit, NULL);
+            item->f32
+                ? gb_record_add_f32(to, item->name, rows, item->columns, item->unit, NULL)
+                : gb_record_add(to, item->name, item->type, rows, item->columns,
+                                item->unit, NULL);
         for (int n = 0; n < (of_pairs ? times : 1) && bytes > 0; n++) {
             memcpy((char *)copy->data + (size_t)n * bytes, item->data, bytes);
         }
@@ -111,8 +111,9 @@ static void test_double(void)
 
 static void test_sizes(void)
 {
-    check(scene_params("particles.distribution=lognormal",
-                       "particles.sigma=0.25", "particles.largest=20 nm", NULL), 500);
+    check(scene_params("particles.distribution=lognormal", "particles.sigma=0.25",
+                       "particles.largest=20 nm", NULL),
+          500);
 }
 
 static void test_motion(void)
@@ -129,7 +130,8 @@ static void test_motion(void)
 /* Without an item that the rows are made of there is no state. */
 static void test_missing(void)
 {
-    static const char *const items[] = {"world/pair", "world/history", "world/pair_force"};
+    static const char *const items[] = {"world/pair", "world/history",
+                                        "world/pair_force"};
     const struct gb_params params = scene_params(NULL, NULL);
     const struct gb_model model = scene_model(&params);
     struct gb_record record = {0};

@@ -7,7 +7,7 @@
 #include "common/patience.h"
 #include "common/run_directory.h"
 #include "common/scene.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "runner/runner.h"
 #include "runner/view_sampling.h"
 

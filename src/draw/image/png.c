@@ -12,7 +12,6 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/read_file.h"
 #include "draw/image/image.h"
 
 enum { TEXTS_MAX = 16, LEVEL = 5 /* of zlib: half the time of 6 for 2 % more bytes */ };
@@ -203,7 +202,7 @@ static bool find_text(struct reader *reader, const char *key)
 
 static FILE *open_picture(const char *path, struct gb_error *err)
 {
-    const int file = gb_read_file_open(path, err);
+    const int file = gb_file_open(path, err);
     FILE *stream = file >= 0 ? fdopen(file, "rb") : NULL;
     if (file >= 0 && stream == NULL) {
         gb_error_set(err, GB_ERR_MEMORY, "%.300s: %s", path, g_strerror(errno));

@@ -10,7 +10,7 @@
 #include "base/file.h"
 #include "base/listing.h"
 #include "io/preset.h"
-#include "io/status/status_json.h"
+#include "io/status_json.h"
 
 static void append_number(GString *text, double value, char end)
 {

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/params.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "measure/structure.h"
 
 /* An initial structure and the quantities measured on it. */

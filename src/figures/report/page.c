@@ -3,7 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 
 /* For screen and print; no external font, script or picture. */
 static const char style[] =

@@ -8,9 +8,8 @@
 #include "base/alloc.h"
 #include "base/built_with.h"
 #include "base/file.h"
-#include "base/read_file.h"
 #include "base/table.h"
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "draw/packing_image.h"
 #include "draw/picture_colours.h"
 #include "figures/figures.h"
@@ -46,7 +45,7 @@ static bool copy_file(struct gb_report *report, size_t run, const char *name, ch
     char *from = g_build_filename(report->set->run[run].directory, name, NULL);
     char *to = g_strdup_printf("runs/%zu-%s", run + 1, name);
     bool good = true;
-    if (gb_read_file(from, GB_TABLE_BYTES_MAX, &text, &size, NULL)) {
+    if (gb_file_read(from, GB_TABLE_BYTES_MAX, &text, &size, NULL)) {
         good = keep(report, to, text, size, sum, err);
     } else {
         *sum = g_strdup("");
@@ -82,7 +81,7 @@ static bool add_laboratory(struct gb_report *report, struct gb_error *err)
     struct gb_report_table table;
     char *name = plain_name(path);
     char *copy = g_strconcat("data/", name, NULL);
-    bool good = gb_read_file(path, GB_TABLE_BYTES_MAX, &text, &size, err) &&
+    bool good = gb_file_read(path, GB_TABLE_BYTES_MAX, &text, &size, err) &&
                 keep(report, copy, text, size, &sum, err);
     if (good) {
         gb_report_tables_begin(&table, heads);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "base/table.h"
 #include "io/lab/lab_private.h"
 
@@ -205,7 +205,7 @@ enum gb_lab_outcome gb_lab_reader_read(struct gb_table **out, const char *path,
     char *text = NULL;
     size_t length = 0;
     *report = (struct gb_lab_report){.choices = 0};
-    if (!gb_read_file(path, GB_TABLE_BYTES_MAX, &text, &length, err)) {
+    if (!gb_file_read(path, GB_TABLE_BYTES_MAX, &text, &length, err)) {
         return GB_LAB_FAILED;
     }
     const bool own = is_of_program(text, also);

@@ -5,7 +5,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 
 /* What a file begins with. */
 struct mark {
@@ -98,7 +98,7 @@ bool gb_lab_text_read(struct gb_lab_text *out, const char *path, struct gb_error
     char *bytes = NULL;
     size_t length = 0;
     *out = (struct gb_lab_text){0};
-    if (!gb_read_file(path, GB_LAB_TEXT_BYTES_MAX, &bytes, &length, err)) {
+    if (!gb_file_read(path, GB_LAB_TEXT_BYTES_MAX, &bytes, &length, err)) {
         return false;
     }
     const struct mark *mark = find_mark(bytes, length);

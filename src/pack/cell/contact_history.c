@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/share.h"
 #include "pack/list/blocks.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/mat.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/world_private.h"
 #include "pack/kernel/share.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 #include "pack/structure/assign_sizes.h"

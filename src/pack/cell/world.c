@@ -12,7 +12,7 @@
 
 #include "base/alloc.h"
 #include "base/record.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "base/vec.h"
 #include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"

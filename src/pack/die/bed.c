@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "base/vec.h"
 #include "greenbody/status.h"
 #include "pack/die/bed_list.h"

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "greenbody/status.h"
 #include "pack/die/die.h"
 #include "pack/kernel/bed_batch.h"

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/die/bed.h"
 #include "pack/kernel/bed_batch.h"
 #include "pack/kernel/bed_motion.h"

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_state.h"
 #include "pack/kernel/register_rows.h"

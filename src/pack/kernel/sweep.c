@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/f32/f32_state.h"
 #include "pack/kernel/sweep_f32.h"

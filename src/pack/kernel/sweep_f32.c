@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/register_rows.h"
 #include "pack/kernel/simd.h"

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/world_private.h"
 #include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"

@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 
 struct gb_engine;
 

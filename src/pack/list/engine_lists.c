@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "greenbody/status.h"
 #include "pack/cell/contacts.h"
 #include "pack/cell/engine.h"

@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/list/blocks.h"
 

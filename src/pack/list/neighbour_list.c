@@ -24,7 +24,7 @@
 #include "base/alloc.h"
 #include "base/mat.h"
 #include "base/portable.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/kernel/lanes.h"
 #include "pack/kernel/share.h"
 #include "pack/kernel/simd.h"

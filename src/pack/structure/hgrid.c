@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/kernel/lanes.h"
 #include "pack/kernel/simd.h"
 #include "scene/tolerances.h"

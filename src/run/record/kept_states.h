@@ -3,7 +3,7 @@
 
 #include "base/record.h"
 #include "greenbody/curve.h"
-#include "io/state/state.h"
+#include "io/state.h"
 #include "scene/field/keep_points.h"
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of

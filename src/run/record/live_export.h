@@ -4,7 +4,7 @@
 #include <sys/types.h>
 
 #include "greenbody/params.h"
-#include "io/export/export.h"
+#include "io/export.h"
 #include "run/record/kept_states.h"
 
 /* The kept states of a run as files of other programs, along the run (output.export): a

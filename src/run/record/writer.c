@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/thread.h"
-#include "io/state/state_record.h"
+#include "base/team.h"
+#include "io/state_record.h"
 
 struct gb_writer {
     /* const once the thread runs */
@@ -107,7 +107,7 @@ bool gb_writer_create(struct gb_writer **out, const struct gb_store *store,
     writer->process = getpid();
     pthread_mutex_init(&writer->mutex, NULL);
     pthread_cond_init(&writer->change, NULL);
-    if (!gb_thread_start(&writer->thread, work, writer, "the writer thread", err)) {
+    if (!gb_team_start_thread(&writer->thread, work, writer, "the writer thread", err)) {
         pthread_cond_destroy(&writer->change);
         pthread_mutex_destroy(&writer->mutex);
         gb_alloc_free(writer);

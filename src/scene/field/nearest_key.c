@@ -4,17 +4,17 @@
 
 #include <glib.h>
 
-#include "base/text/nearest_word.h"
+#include "base/words.h"
 #include "scene/field/field_words.h"
 #include "scene/field/params_table.h"
 
 static int edits_to(const struct gb_field *field, const char *name, bool with_group)
 {
     if (!with_group) {
-        return gb_nearest_word_edits(field->key, name);
+        return gb_words_edits(field->key, name);
     }
     char *full = g_strconcat(field->group, ".", field->key, NULL);
-    const int edits = gb_nearest_word_edits(full, name);
+    const int edits = gb_words_edits(full, name);
     g_free(full);
     return edits;
 }
@@ -30,7 +30,7 @@ char *gb_nearest_key(const char *name, char *buffer, size_t size)
     size_t count = 0, nearest = 0;
     const struct gb_field *fields = gb_params_table(&count);
     const bool with_group = strchr(name, '.') != NULL;
-    int best = gb_nearest_word_allowed(name) + 1;
+    int best = gb_words_allowed(name) + 1;
     bool several = false;
     buffer[0] = '\0';
     for (size_t i = 0; i < count; i++) {
@@ -41,11 +41,12 @@ char *gb_nearest_key(const char *name, char *buffer, size_t size)
             nearest = i;
         }
     }
-    const struct gb_field *meant = best <= gb_nearest_word_allowed(name) && !several
+    const struct gb_field *meant = best <= gb_words_allowed(name) && !several
                                        ? &fields[nearest]
                                        : gb_field_words_find(without_group(name));
     if (meant != NULL) {
-        g_snprintf(buffer, (gulong)size, "did you mean %s.%s? ", meant->group, meant->key);
+        g_snprintf(buffer, (gulong)size, "did you mean %s.%s? ", meant->group,
+                   meant->key);
     }
     return buffer;
 }

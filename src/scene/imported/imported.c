@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
-#include "base/read_file.h"
 #include "scene/imported/imported_private.h"
 #include "scene/loading_kind.h"
 
@@ -86,7 +86,7 @@ static struct gb_imported *read_packing(const char *path, struct gb_error *err)
 {
     char *bytes = NULL;
     size_t length = 0;
-    if (!gb_read_file(path, bytes_max, &bytes, &length, err)) {
+    if (!gb_file_read(path, bytes_max, &bytes, &length, err)) {
         return NULL;
     }
     struct gb_imported_raw raw = {

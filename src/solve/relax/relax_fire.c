@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/team/team.h"
+#include "base/team.h"
 #include "base/vec.h"
 #include "pack/f32/integrate_f32.h"
 #include "pack/kernel/simd.h"

@@ -12,7 +12,7 @@
 #include "base/mat.h"
 #include "base/portable.h"
 #include "base/record.h"
-#include "base/team/team.h"
+#include "base/team.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 #include "scene/tolerances.h"

@@ -16,7 +16,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/thread.h"
+#include "base/team.h"
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 #include "many/pool.h"
@@ -436,8 +436,8 @@ static bool card_threads_work(struct card_threads *threads, int jobs,
     const int wanted = jobs > 0 ? jobs : (int)sysconf(_SC_NPROCESSORS_ONLN);
     const int most = MIN(MIN(MAX(wanted, 1), JOBS_MAX), replicas);
     int started = 0;
-    while (started < most && gb_thread_start(&thread[started], work, threads,
-                                             "a thread of the card", err)) {
+    while (started < most && gb_team_start_thread(&thread[started], work, threads,
+                                                  "a thread of the card", err)) {
         started++;
     }
     for (int t = 0; t < started; t++) {

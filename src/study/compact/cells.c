@@ -8,7 +8,6 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/read_file.h"
 #include "io/text_file.h"
 #include "many/ensemble.h"
 #include "many/pool.h"
@@ -98,7 +97,7 @@ static bool is_done(const struct gb_cells *cells, const struct gb_cells_item *ce
     char *answer = path_of(cells, cell, ".csv");
     char *text = NULL;
     size_t length = 0;
-    const bool done = gb_read_file(question, QUESTION_BYTES_MAX, &text, &length, NULL) &&
+    const bool done = gb_file_read(question, QUESTION_BYTES_MAX, &text, &length, NULL) &&
                       strcmp(text, cell->question) == 0 &&
                       g_file_test(answer, G_FILE_TEST_IS_REGULAR);
     gb_alloc_free(text);
@@ -123,7 +122,7 @@ static bool ask(const struct gb_cells *cells, const struct gb_cells_item *cell,
     char *answer = path_of(cells, cell, ".csv");
     char *text = NULL;
     size_t length = 0;
-    bool good = gb_read_file(question, QUESTION_BYTES_MAX, &text, &length, NULL) &&
+    bool good = gb_file_read(question, QUESTION_BYTES_MAX, &text, &length, NULL) &&
                 strcmp(text, cell->question) == 0;
     if (!good) {
         (void)remove(answer);
@@ -343,7 +342,7 @@ bool gb_cells_question(GKeyFile **question, struct gb_lock *lock, const char *pa
     *lock = GB_LOCK_NONE;
     const bool good =
         claim(lock, path, err) &&
-        gb_read_file(file, QUESTION_BYTES_MAX, &text, &length, err) &&
+        gb_file_read(file, QUESTION_BYTES_MAX, &text, &length, err) &&
         (g_key_file_load_from_data(*question, text, length, G_KEY_FILE_NONE, &error) ||
          gb_error_set(err, GB_ERR_MACHINE, "%.300s: %.200s", file, error->message));
     g_clear_error(&error);

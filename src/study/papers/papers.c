@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/listing.h"
 #include "base/number.h"
-#include "base/read_file.h"
 #include "base/units.h"
 #include "greenbody/status.h"
 #include "io/lab/lab_grid.h"
@@ -235,7 +235,7 @@ bool gb_papers_printed_read(struct gb_papers_numbers *numbers, const char *path,
     char *text = NULL;
     size_t length = 0;
     const bool good =
-        gb_read_file(numbers->path, BYTES_MAX, &text, &length, err) &&
+        gb_file_read(numbers->path, BYTES_MAX, &text, &length, err) &&
         gb_lab_grid_init(&numbers->grid, numbers->path, text, length, ',', err) &&
         read_rows(numbers, err);
     gb_alloc_free(text);

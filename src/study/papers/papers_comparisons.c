@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "io/preset.h"
-#include "io/state/state_forces.h"
+#include "io/state_forces.h"
 #include "many/mean_curves.h"
 #include "measure/fit/average.h"
 #include "measure/fit/power.h"
@@ -685,8 +685,7 @@ static const char contacts[] =
 static const char rates[] = "the pressures prefer no exponent; `docs/validation.md`";
 static const char own_rule[] =
     "the paper's own rule, a curve through the yield point, gives 1049 MPa";
-static const char softest[] =
-    "the printed range is from m = 0.1 to 0.2; m = 0 is softer";
+static const char softest[] = "the printed range is from m = 0.1 to 0.2; m = 0 is softer";
 static const char own_law[] = "the hardening law comes from the curve here";
 static const char filling[] =
     "the paper states neither the funnel nor the gravity nor the damping of its filling";

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "base/units.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
@@ -117,7 +117,7 @@ static char *read_head(const char *path)
     char *content = NULL;
     size_t length = 0;
     GString *head = g_string_new(NULL);
-    if (path != NULL && gb_read_file(path, BYTES_MAX, &content, &length, NULL)) {
+    if (path != NULL && gb_file_read(path, BYTES_MAX, &content, &length, NULL)) {
         char **lines = g_strsplit(content, "\n", HEAD_LINES + 1);
         for (int i = 0; i < HEAD_LINES && lines[i] != NULL && lines[i][0] == '#'; i++) {
             g_string_append_printf(head, "%s%s", head->len > 0 ? " " : "",

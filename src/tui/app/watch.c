@@ -11,9 +11,7 @@
 #include "base/number.h"
 #include "base/units.h"
 #include "greenbody/status.h"
-#include "io/runs/run_delete.h"
-#include "io/runs/run_line.h"
-#include "io/runs/run_list.h"
+#include "io/run_list.h"
 #include "tui/app/keys.h"
 #include "tui/panel/list_box.h"
 #include "tui/panel/panels.h"
@@ -197,7 +195,7 @@ static void picker_draw_header(const struct picker *picker, const struct gb_pain
         bytes += item->bytes;
         live += item->engine != GB_RUN_LIST_NONE;
     }
-    char *size = gb_run_line_size(bytes);
+    char *size = gb_run_list_size_text(bytes);
     snprintf(text, sizeof text, "%u run%s, %d live, %s", picker->items->len,
              picker->items->len == 1 ? "" : "s", live, size);
     gb_paint_text(paint, 0, 1, GB_STYLE_BOLD, "greenbody");
@@ -209,7 +207,7 @@ static void picker_draw_header(const struct picker *picker, const struct gb_pain
 /* What a row is written from. */
 struct source {
     const struct picker *picker;
-    enum gb_run_line_extent extent;
+    enum gb_run_list_extent extent;
 };
 
 static void picker_write_run(void *data, int at, struct gb_list_box_line *line)
@@ -219,14 +217,15 @@ static void picker_write_run(void *data, int at, struct gb_list_box_line *line)
         g_ptr_array_index(source->picker->items, (guint)at);
     line->style = item->engine != GB_RUN_LIST_NONE ? GB_STYLE_GOOD : GB_STYLE_PLAIN;
     line->cell[0] = g_strdup(item->name);
-    line->cell[1] = gb_run_line_values(item, source->extent);
+    line->cell[1] = gb_run_list_line(item, source->extent);
 }
 
 static void picker_draw_list(struct picker *picker, const struct gb_paint *paint)
 {
-    struct source source = {picker, paint->rect.cols >= ALL_COLS ? GB_RUN_LINE_ALL
-                                                                 : GB_RUN_LINE_BRIEF};
-    char *head = gb_run_line_head(source.extent);
+    struct source source = {picker, paint->rect.cols >= ALL_COLS
+                                        ? GB_RUN_LIST_LINE_ALL
+                                        : GB_RUN_LIST_LINE_BRIEF};
+    char *head = gb_run_list_line_head(source.extent);
     const struct gb_list_box_look look = {
         .columns = 2,
         .column = {{.title = "name"},
@@ -255,7 +254,7 @@ static void draw_foot(const struct picker *picker, const struct gb_paint *paint)
         gb_paint_cell(paint, row, 1, cols, GB_STYLE_DIM, text);
     }
     if (picker->asks && item != NULL) {
-        char *size = gb_run_line_size(item->bytes);
+        char *size = gb_run_list_size_text(item->bytes);
         snprintf(text, sizeof text, "Delete it, %d files, %s? y deletes, n keeps",
                  picker->files, size);
         gb_paint_cell(paint, row + 1, 1, cols, GB_STYLE_WARN, text);
@@ -309,7 +308,7 @@ static void ask(struct picker *picker)
             "a live run is not deleted: Enter shows it, t there takes it over");
         return;
     }
-    picker->files = gb_run_delete_count(item->directory);
+    picker->files = gb_run_list_count_files(item->directory);
     picker->asks = true;
 }
 
@@ -319,7 +318,7 @@ static void delete_focused(struct picker *picker)
     const int focus = picker->box.focus;
     struct gb_error err = {0};
     char text[400];
-    if (gb_run_delete(item->directory, &err)) {
+    if (gb_run_list_delete(item->directory, &err)) {
         snprintf(text, sizeof text, "deleted: %.300s", item->name);
         say(picker, GB_STYLE_GOOD, text);
     } else {

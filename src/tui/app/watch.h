@@ -9,7 +9,7 @@
 /* A screen to choose a run from a list of live, detached and past ones: typing filters,
  * Enter chooses, Del or Ctrl-D deletes after a question, never a live run.
  *
- * list       the runs (io/runs/run_list.h), asked for again and again; g_ptr_array_unref
+ * list       the runs (io/run_list.h), asked for again and again; g_ptr_array_unref
  * directory  of the run chosen, g_free; NULL: none
  *
  * Returns the exit status. */

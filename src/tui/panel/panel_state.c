@@ -5,7 +5,7 @@
 
 #include "base/number.h"
 #include "base/units.h"
-#include "io/status/stage_text.h"
+#include "io/status_json.h"
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
 #include "tui/panel/panels.h"
@@ -540,11 +540,11 @@ bool gb_panel_state_stage(const struct gb_snapshot *now, enum gb_run_state state
     if (state != GB_RUN_RUNNING || stage->stage == GB_STAGE_NONE) {
         return false;
     }
-    gb_stage_text_value(stage, value, sizeof value);
-    snprintf(text, size, "%s%s%s", gb_stage_text_name(stage->stage),
+    gb_status_json_stage_value(stage, value, sizeof value);
+    snprintf(text, size, "%s%s%s", gb_status_json_stage_name(stage->stage),
              value[0] != '\0' ? " " : "", value);
     if ((int)strlen(text) > cols) {
-        snprintf(text, size, "%s", gb_stage_text_name(stage->stage));
+        snprintf(text, size, "%s", gb_status_json_stage_name(stage->stage));
     }
     return (int)strlen(text) <= cols;
 }

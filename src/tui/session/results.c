@@ -9,14 +9,14 @@
 #include <sys/stat.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
-#include "base/read_file.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "io/preset.h"
-#include "io/runs/run_line.h"
+#include "io/run_list.h"
 #include "many/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 #include "scene/tolerances.h"
@@ -394,7 +394,7 @@ static bool results_files_picture(struct gb_result_card *card,
         results_card_add(card, GB_RESULT_WARNING, "%s", err.text);
         return true;
     }
-    char *size = gb_run_line_size(gb_run_list_bytes(card->path));
+    char *size = gb_run_list_size_text(gb_run_list_bytes(card->path));
     results_card_add(card, GB_RESULT_VALUE, "%d x %d pixels, %s", picture.wide,
                      picture.high, size);
     if (picture.per_inch > 0.0) {
@@ -438,7 +438,7 @@ static bool results_files_report(struct gb_result_card *card,
     char *figures = g_build_filename(card->path, "figures", NULL);
     char *pictures = g_build_filename(card->path, "pictures", NULL);
     char *tables = g_build_filename(card->path, "tables", NULL);
-    char *size = gb_run_line_size(gb_run_list_bytes(card->path));
+    char *size = gb_run_list_size_text(gb_run_list_bytes(card->path));
     char *first = NULL;
     (void)session;
     const int drawn = count_files(figures, ".png", NULL);
@@ -523,7 +523,7 @@ static bool read_lines(struct gb_result_card *card)
     char *text = NULL;
     size_t length = 0;
     char *path = g_build_filename(card->path, GB_CALIBRATION_TABLE_TEXT, NULL);
-    const bool good = gb_read_file(path, BYTES_MAX, &text, &length, NULL);
+    const bool good = gb_file_read(path, BYTES_MAX, &text, &length, NULL);
     char **lines = g_strsplit(good ? text : "", "\n", -1);
     for (int i = 0; lines[i] != NULL; i++) {
         if (lines[i][0] != '\0') {

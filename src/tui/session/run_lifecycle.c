@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include "base/program.h"
-#include "base/text/visible.h"
 #include "base/units.h"
+#include "base/visible.h"
 #include "greenbody/params.h"
+#include "io/run_list.h"
 #include "io/rundir.h"
-#include "io/runs/run_list.h"
 #include "io/store.h"
 #include "run/cost.h"
 #include "scene/derived.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "base/table.h"
 #include "base/units.h"
 #include "greenbody/snapshot.h"
@@ -87,7 +87,7 @@ static char **read_lines(const char *directory, const char *name)
     char *text = NULL;
     size_t length = 0;
     GPtrArray *lines = g_ptr_array_new();
-    if (gb_read_file(path, GB_TABLE_BYTES_MAX, &text, &length, NULL)) {
+    if (gb_file_read(path, GB_TABLE_BYTES_MAX, &text, &length, NULL)) {
         char **rows = g_strsplit(g_strchomp(text), "\n", -1);
         for (size_t i = 0; rows[i] != NULL; i++) {
             if (rows[i][0] == '#') {

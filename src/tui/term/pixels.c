@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/built_with.h"
-#include "base/read_file.h"
+#include "base/file.h"
 #include "tui/panel/sphere_shading.h"
 #include "tui/term/settings.h"
 #include "tui/term/term.h"
@@ -23,7 +23,7 @@ static const png_color white = {255, 255, 255};
 /* libpng closes nothing: *stream is for the caller, also after an error. */
 static bool begin(png_image *png, FILE **stream, const char *path, struct gb_error *err)
 {
-    const int fd = gb_read_file_open(path, err);
+    const int fd = gb_file_open(path, err);
     *png = (png_image){.version = PNG_IMAGE_VERSION};
     *stream = fd >= 0 ? fdopen(fd, "rb") : NULL;
     if (*stream == NULL) {

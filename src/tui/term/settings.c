@@ -6,7 +6,6 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/read_file.h"
 
 enum { BYTES_MAX = 1 << 20 };
 
@@ -116,7 +115,7 @@ static GKeyFile *load(const char *path, struct gb_error *err)
     if (!g_file_test(path, G_FILE_TEST_EXISTS)) {
         return file;
     }
-    bool good = gb_read_file(path, BYTES_MAX, &text, &length, err);
+    bool good = gb_file_read(path, BYTES_MAX, &text, &length, err);
     if (good && !g_key_file_load_from_data(file, text, length, G_KEY_FILE_KEEP_COMMENTS,
                                            &error)) {
         good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);

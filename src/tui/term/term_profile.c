@@ -10,7 +10,7 @@
 #include <term.h>
 #include <unistd.h>
 
-#include "base/text/visible.h"
+#include "base/visible.h"
 #include "tui/term/pixels.h"
 #include "tui/term/term.h"
 
