@@ -18,159 +18,13 @@
 #include "io/rundir.h"
 #include "io/status_json.h"
 
-/* Calls visit for each entry of the directory `name` in `parent`; false: an error of
- * visit, or of reading, in errno. */
-static bool run_delete_for_each(int parent, const char *name,
-                                bool (*visit)(int folder, const char *entry, void *data),
-                                void *data)
-{
-    const int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    DIR *dir = fd >= 0 ? fdopendir(fd) : NULL;
-    const struct dirent *entry;
-    bool good = dir != NULL;
-    if (dir == NULL) {
-        const int reason = errno;
-        if (fd >= 0) {
-            close(fd);
-        }
-        errno = reason;
-        return false;
-    }
-    while (good && (entry = readdir(dir)) != NULL) {
-        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
-            good = visit(fd, entry->d_name, data);
-        }
-    }
-    const int reason = errno;
-    closedir(dir);
-    errno = reason;
-    return good;
-}
-
-static bool is_directory(int folder, const char *name)
-{
-    struct stat info;
-    return fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
-           S_ISDIR(info.st_mode);
-}
-
-static bool remove_entry(int folder, const char *name, void *data)
-{
-    if (is_directory(folder, name)) {
-        return run_delete_for_each(folder, name, remove_entry, data) &&
-               unlinkat(folder, name, AT_REMOVEDIR) == 0;
-    }
-    return unlinkat(folder, name, 0) == 0;
-}
-
-static bool count_entry(int folder, const char *name, void *data)
-{
-    if (is_directory(folder, name)) {
-        return run_delete_for_each(folder, name, count_entry, data);
-    }
-    *(int *)data += strcmp(name, ".lock") != 0; /* which is no file of the run */
-    return true;
-}
-
-int gb_run_list_count_files(const char *directory)
-{
-    int count = 0;
-    (void)run_delete_for_each(AT_FDCWD, directory, count_entry, &count);
-    return count;
-}
-
-bool gb_run_list_delete(const char *directory, struct gb_error *err)
-{
-    struct gb_rundir dir;
-    if (!gb_rundir_open(&dir, directory, err)) {
-        return false;
-    }
-    const bool good = run_delete_for_each(AT_FDCWD, directory, remove_entry, NULL) &&
-                      rmdir(directory) == 0;
-    const int reason = errno;
-    gb_rundir_finish(&dir);
-    return good || gb_error_set(err, GB_ERR_MACHINE, "%.300s: cannot be removed: %s",
-                                directory, strerror(reason));
-}
-
-/* A run of a list as a line: what stands behind its name, in columns. */
-
-enum { STATE_COLS = 14 };
-
-/* "done", "live 45 %", "detached 45 %", "paused 45 %". */
-static void write_state(const struct gb_run_list_item *item, char *text, size_t size)
-{
-    const bool paused = strcmp(item->state, "paused") == 0;
-    if (item->engine == GB_RUN_LIST_NONE) {
-        snprintf(text, size, "%s", item->state);
-    } else {
-        snprintf(text, size, "%s %.0f %%",
-                 paused ? item->state : gb_run_list_engine_word(item->engine),
-                 floor(100.0 * item->progress));
-    }
-}
-
-char *gb_run_list_size_text(int64_t bytes)
-{
-    char *size = g_format_size((guint64)bytes);
-    char **parts = g_strsplit(size, "\u00a0", 2); /* no-break space */
-    char *text = g_strjoinv(" ", parts);
-    g_strfreev(parts);
-    g_free(size);
-    return text;
-}
-
-/* "11-25 23:58", or "2025-11-25" of another year; g_free. */
-static char *date_text(int64_t seconds)
-{
-    GDateTime *time = g_date_time_new_from_unix_local(seconds);
-    GDateTime *now = g_date_time_new_now_local();
-    const bool known = time != NULL && now != NULL;
-    char *text = !known ? g_strdup("-")
-                        : g_date_time_format(time, g_date_time_get_year(time) ==
-                                                           g_date_time_get_year(now)
-                                                       ? "%m-%d %H:%M"
-                                                       : "%Y-%m-%d");
-    g_clear_pointer(&time, g_date_time_unref);
-    g_clear_pointer(&now, g_date_time_unref);
-    return text;
-}
-
-static char *join(enum gb_run_list_extent extent, const char *state, const char *density,
-                  const char *pressure, const char *size, const char *date)
-{
-    return extent == GB_RUN_LIST_LINE_ALL
-               ? g_strdup_printf("%-*s  %7s  %8s  %8s  %s", STATE_COLS, state, density,
-                                 pressure, size, date)
-               : g_strdup_printf("%-*s  %8s  %s", STATE_COLS, state, size, date);
-}
-
-char *gb_run_list_line(const struct gb_run_list_item *item,
-                       enum gb_run_list_extent extent)
-{
-    char state[48];
-    char density[16] = "-";
-    char pressure[32] = "-";
-    char *date = date_text(item->modified_s);
-    char *size = gb_run_list_size_text(item->bytes);
-    write_state(item, state, sizeof state);
-    if (isfinite(item->density)) {
-        snprintf(density, sizeof density, "%.4f", item->density);
-    }
-    if (isfinite(item->pressure_pa)) {
-        gb_units_format_short(item->pressure_pa, GB_DIM_PRESSURE, 3, pressure,
-                              sizeof pressure);
-    }
-    char *line = join(extent, state, density, pressure, size, date);
-    g_free(size);
-    g_free(date);
-    return line;
-}
-
-char *gb_run_list_line_head(enum gb_run_list_extent extent)
-{
-    return join(extent, "state", "density", "pressure", "size", "date");
-}
+/* The list of runs below a folder.
+ *
+ * A directory with preset.ini is a run.  Its lock says whether a process computes it,
+ * status.json how far it is, and the last row of curve.csv gives density and pressure.
+ * Nothing else is read, so that a list of hundreds of long runs appears at once.
+ *
+ * Below: the last point of a curve, the search, a run as a line of text, and deletion. */
 
 /* Longer than the comments with the header, and than a row. */
 enum { END_BYTES = 16384 };
@@ -417,4 +271,158 @@ static gint compare(gconstpointer a, gconstpointer b)
 void gb_run_list_sort(GPtrArray *list)
 {
     g_ptr_array_sort(list, compare);
+}
+
+enum { STATE_COLS = 14 };
+
+/* "done", "live 45 %", "detached 45 %", "paused 45 %". */
+static void write_state(const struct gb_run_list_item *item, char *text, size_t size)
+{
+    const bool paused = strcmp(item->state, "paused") == 0;
+    if (item->engine == GB_RUN_LIST_NONE) {
+        snprintf(text, size, "%s", item->state);
+    } else {
+        snprintf(text, size, "%s %.0f %%",
+                 paused ? item->state : gb_run_list_engine_word(item->engine),
+                 floor(100.0 * item->progress));
+    }
+}
+
+char *gb_run_list_size_text(int64_t bytes)
+{
+    char *size = g_format_size((guint64)bytes);
+    char **parts = g_strsplit(size, "\u00a0", 2); /* no-break space */
+    char *text = g_strjoinv(" ", parts);
+    g_strfreev(parts);
+    g_free(size);
+    return text;
+}
+
+/* "11-25 23:58", or "2025-11-25" of another year; g_free. */
+static char *date_text(int64_t seconds)
+{
+    GDateTime *time = g_date_time_new_from_unix_local(seconds);
+    GDateTime *now = g_date_time_new_now_local();
+    const bool known = time != NULL && now != NULL;
+    char *text = !known ? g_strdup("-")
+                        : g_date_time_format(time, g_date_time_get_year(time) ==
+                                                           g_date_time_get_year(now)
+                                                       ? "%m-%d %H:%M"
+                                                       : "%Y-%m-%d");
+    g_clear_pointer(&time, g_date_time_unref);
+    g_clear_pointer(&now, g_date_time_unref);
+    return text;
+}
+
+static char *join(enum gb_run_list_extent extent, const char *state, const char *density,
+                  const char *pressure, const char *size, const char *date)
+{
+    return extent == GB_RUN_LIST_LINE_ALL
+               ? g_strdup_printf("%-*s  %7s  %8s  %8s  %s", STATE_COLS, state, density,
+                                 pressure, size, date)
+               : g_strdup_printf("%-*s  %8s  %s", STATE_COLS, state, size, date);
+}
+
+char *gb_run_list_line(const struct gb_run_list_item *item,
+                       enum gb_run_list_extent extent)
+{
+    char state[48];
+    char density[16] = "-";
+    char pressure[32] = "-";
+    char *date = date_text(item->modified_s);
+    char *size = gb_run_list_size_text(item->bytes);
+    write_state(item, state, sizeof state);
+    if (isfinite(item->density)) {
+        snprintf(density, sizeof density, "%.4f", item->density);
+    }
+    if (isfinite(item->pressure_pa)) {
+        gb_units_format_short(item->pressure_pa, GB_DIM_PRESSURE, 3, pressure,
+                              sizeof pressure);
+    }
+    char *line = join(extent, state, density, pressure, size, date);
+    g_free(size);
+    g_free(date);
+    return line;
+}
+
+char *gb_run_list_line_head(enum gb_run_list_extent extent)
+{
+    return join(extent, "state", "density", "pressure", "size", "date");
+}
+
+/* Deletion goes by descriptors, so that no link put in place meanwhile leads out of the run.
+ *
+ * Calls visit for each entry of the directory `name` in `parent`.  False: visit failed, or
+ * the directory cannot be read; errno tells why. */
+static bool for_each_entry(int parent, const char *name,
+                           bool (*visit)(int folder, const char *entry, void *data),
+                           void *data)
+{
+    const int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    DIR *dir = fd >= 0 ? fdopendir(fd) : NULL;
+    const struct dirent *entry;
+    bool good = dir != NULL;
+    if (dir == NULL) {
+        const int reason = errno;
+        if (fd >= 0) {
+            close(fd);
+        }
+        errno = reason;
+        return false;
+    }
+    while (good && (entry = readdir(dir)) != NULL) {
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
+            good = visit(fd, entry->d_name, data);
+        }
+    }
+    const int reason = errno;
+    closedir(dir);
+    errno = reason;
+    return good;
+}
+
+static bool is_directory(int folder, const char *name)
+{
+    struct stat info;
+    return fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
+           S_ISDIR(info.st_mode);
+}
+
+static bool remove_entry(int folder, const char *name, void *data)
+{
+    if (is_directory(folder, name)) {
+        return for_each_entry(folder, name, remove_entry, data) &&
+               unlinkat(folder, name, AT_REMOVEDIR) == 0;
+    }
+    return unlinkat(folder, name, 0) == 0;
+}
+
+static bool count_entry(int folder, const char *name, void *data)
+{
+    if (is_directory(folder, name)) {
+        return for_each_entry(folder, name, count_entry, data);
+    }
+    *(int *)data += strcmp(name, ".lock") != 0; /* which is no file of the run */
+    return true;
+}
+
+int gb_run_list_count_files(const char *directory)
+{
+    int count = 0;
+    (void)for_each_entry(AT_FDCWD, directory, count_entry, &count);
+    return count;
+}
+
+bool gb_run_list_delete(const char *directory, struct gb_error *err)
+{
+    struct gb_rundir dir;
+    if (!gb_rundir_open(&dir, directory, err)) {
+        return false;
+    }
+    const bool good =
+        for_each_entry(AT_FDCWD, directory, remove_entry, NULL) && rmdir(directory) == 0;
+    const int reason = errno;
+    gb_rundir_finish(&dir);
+    return good || gb_error_set(err, GB_ERR_MACHINE, "%.300s: cannot be removed: %s",
+                                directory, strerror(reason));
 }

@@ -12,9 +12,15 @@
 #include "greenbody/status.h"
 #include "io/status_json.h"
 
-/* The files that a run writes in its directory, by name. */
+/* The directory of a run: making it, holding its lock, and removing what is in it.
+ *
+ * Only files that a run writes are ever removed.  They are known by name; any other file
+ * makes a directory foreign, and it is left alone.  Replacing a run first checks everything,
+ * so that an error changes nothing.  A lock (io/lock.h) says that a process computes the run.
+ *
+ * Below: the names of files, the checks before a directory is used, and making, opening and
+ * finishing it. */
 
-/* Files of a run by name; other files in a directory are never removed. */
 static const char *const known_files[] = {
     "preset.ini", "curve.csv", "events.log", "status.json", "state.h5", "packing.csv",
     "g.csv", "structure.json", "state-before.h5", "moduli.csv", "structure.csv",
@@ -23,8 +29,7 @@ static const char *const known_files[] = {
     "trajectory-contacts.lammps-dump"};
 static const char snapshot_folder[] = "snapshots";
 
-/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
- */
+/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed. */
 static bool is_leftover(const char *tail)
 {
     if (strcmp(tail, ".tmp") == 0) {
@@ -102,7 +107,7 @@ static bool is_engine_leftover(const char *name)
 }
 
 /* What is left of a name behind the last ending of this kind; NULL: it has none. */
-static const char *behind_ending(const char *name, const char *ending)
+static const char *after_ending(const char *name, const char *ending)
 {
     const char *at = g_strrstr(name, ending);
     return at != NULL ? at + strlen(ending) : NULL;
@@ -113,7 +118,7 @@ static bool is_snapshot_name(const char *name)
     static const char *const ends[] = {".h5", ".png", ".lammps-data", ".csv", ".vtkhdf"};
     bool known = false;
     for (size_t k = 0; k < G_N_ELEMENTS(ends); k++) {
-        const char *tail = behind_ending(name, ends[k]);
+        const char *tail = after_ending(name, ends[k]);
         known = known || (tail != NULL && (*tail == '\0' || is_leftover(tail)));
     }
     return known;
@@ -122,7 +127,7 @@ static bool is_snapshot_name(const char *name)
 /* Of the states that an engine alone keeps among the snapshots. */
 static bool is_state_leftover(const char *name)
 {
-    const char *tail = behind_ending(name, ".h5");
+    const char *tail = after_ending(name, ".h5");
     return tail != NULL && is_leftover(tail);
 }
 
