@@ -4,7 +4,8 @@
 #   2. no two layers see each other,
 #   3. an exported symbol starts with gb_<file>_,
 #   4. no two files, struct, union or enum tags of one name; no file takes the symbols of another,
-#   5. the files of the periodic engine call each other in one direction only (docs/engine.md).
+#   5. the files of the periodic engine call each other in one direction only (docs/engine.md),
+#   6. another file uses each exported symbol.
 # Usage: layers.sh SOURCE_DIR [library.a | object directory]...
 set -u
 
@@ -182,6 +183,32 @@ check_calls() { # archive
     [ -s "$scratch/order" ] || complain "$1: no calls between its files"
 }
 
+# "name file" of each name of ours in a source, without the header that declares it.
+list_uses() {
+    find "$source/src" "$source/tests" "$source/examples" -name '*.[ch]' |
+        xargs grep -oE '\<gb_[a-zA-Z0-9_]+\>' | sed 's|^.*/||; s|\.[ch]:| |' |
+        awk '{ print $2 " " $1 }' | sort -u
+}
+
+# Functions of include/greenbody are for programs that use the library.
+check_uses() { # archives and object directories
+    list_uses >"$scratch/uses"
+    cat "$source"/include/greenbody/*.h | grep -oE '\<gb_[a-zA-Z0-9_]+\>' | sort -u >"$scratch/public"
+    for library in "$@"; do
+        if [ -d "$library" ]; then set -- "$library"/*.o; else set -- "$library"; fi
+        nm -A -g --defined-only "$@" 2>/dev/null
+    done | awk '$2 ~ /^[TDRB]$/ && $3 ~ /^gb_/ { print $3 }' | sort -u >"$scratch/exported"
+    awk -v public="$scratch/public" '
+        BEGIN { while ((getline line < public) > 0) { known[line] = 1 } }
+        FILENAME ~ /uses$/ { files[$1]++; next }
+        files[$1] < 2 && !($1 in known) { print $1 }' "$scratch/uses" "$scratch/exported" \
+        >"$scratch/unused"
+    while read -r name; do
+        complain "no other file uses $name: make it static"
+    done <"$scratch/unused"
+    [ -s "$scratch/exported" ] || complain "no exported symbols"
+}
+
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 (cd "$source/src" && find . -name '*.c') | sed 's|^\./||; s|\.c$||' >"$scratch/paths"
@@ -219,6 +246,7 @@ for library in "$@"; do
     */libpack.a) check_calls "$library" ;;
     esac
 done
+check_uses "$@"
 
 [ "$bad" -eq 0 ] && echo "layers: no violation"
 exit "$bad"

@@ -177,8 +177,9 @@ static void fill_state(struct gb_moduli_table_row *row, const struct gb_moduli *
     put(row, "fallbacks", (double)moduli->fallbacks);
 }
 
-void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
-                          const struct gb_params *params)
+/* In GPa, MPa, m/s; all columns but `step`, which is of the run. */
+static void fill(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
+                 const struct gb_params *params)
 {
     *row = (struct gb_moduli_table_row){.range_open = moduli->range_open};
     for (int k = 0; k < 36; k++) {
@@ -211,7 +212,7 @@ static bool probe(void *data, const struct gb_experiment *experiment, unsigned w
     if (!gb_moduli_measure(&moduli, gb_experiment_world(experiment), &options, err)) {
         return false;
     }
-    gb_moduli_table_fill(&probing->row, &moduli, gb_experiment_params(experiment));
+    fill(&probing->row, &moduli, gb_experiment_params(experiment));
     put(&probing->row, "step", (double)gb_experiment_point(experiment)->step);
     probing->row.what = what;
     return sink->row(sink->data, &probing->row, err);

@@ -24,10 +24,6 @@ struct gb_moduli_table_row {
     unsigned what;   /* of a run: points of the list, end; see run/keep_walk.h */
 };
 
-/* In GPa, MPa, m/s; all columns but `step`, which is of the run. */
-void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
-                          const struct gb_params *params);
-
 /* Called with each row in the order of the run; false ends with its error.  The end of a run
  * is a row even if its state was one before. */
 struct gb_moduli_table_sink {

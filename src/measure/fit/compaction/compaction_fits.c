@@ -252,7 +252,7 @@ static double lowest_density(const struct gb_equations_points *points)
 /* k1 < k2: the terms of Cooper and Eaton have no order of their own. */
 static void order_terms(const struct gb_equation *equation, double *x, double *covariance)
 {
-    if (equation->start != gb_equations_start_cooper_eaton || x[2] <= x[3]) {
+    if (equation != gb_equations_find("cooper-eaton") || x[2] <= x[3]) {
         return;
     }
     for (int k = 0; k <= 2; k += 2) {

@@ -10,10 +10,7 @@
 
 /* ---- Densities and slopes ---- */
 
-typedef void gb_equation_models_slope(const double *x, double pressure, double *slope);
-
-/* x = K, A */
-/* ln(1/(1 - rho)) = K P + A */
+/* ln(1/(1 - rho)) = K P + A; x = K, A */
 static double model_heckel(const double *x, double pressure)
 {
     return -expm1(-(x[0] * pressure + x[1]));
@@ -33,7 +30,7 @@ static double compressed(double initial, double c)
 }
 
 /* C = a b P/(1 + b P), that is P/C = 1/(a b) + P/a */
-double gb_equations_kawakita(const double *x, double pressure)
+static double model_kawakita(const double *x, double pressure)
 {
     const double bp = x[1] * pressure;
     return compressed(x[2], x[0] * bp / (1.0 + bp));
@@ -50,7 +47,7 @@ static void model_kawakita_slope(const double *x, double pressure, double *slope
 }
 
 /* C = (1 - D0) (a1 exp(-k1/P) + a2 exp(-k2/P)): C_inf = 1 - D0 is that of full density */
-double gb_equations_cooper_eaton(const double *x, double pressure)
+static double model_cooper_eaton(const double *x, double pressure)
 {
     const double filled = x[0] * exp(-x[2] / pressure) + x[1] * exp(-x[3] / pressure);
     return compressed(x[4], (1.0 - x[4]) * filled);
@@ -106,7 +103,7 @@ static void model_balshin_slope(const double *x, double pressure, double *slope)
 
 /* P = tau/alpha (exp(alpha eps) - 1) with eps = ln(rho/D0): the exponential of
  * ln P = ln(tau/alpha) + alpha eps + ln(1 - exp(-alpha eps)) */
-double gb_equations_adams(const double *x, double pressure)
+static double model_adams(const double *x, double pressure)
 {
     return x[2] * exp(log1p(x[1] * pressure / x[0]) / x[1]);
 }
@@ -151,7 +148,7 @@ static void model_panelli_slope(const double *x, double pressure, double *slope)
 }
 
 /* ln((r_inf - D0)/(r_inf - rho)) = K P^n */
-double gb_equations_secondi(const double *x, double pressure)
+static double model_secondi(const double *x, double pressure)
 {
     return x[0] - (x[0] - x[3]) * exp(-x[1] * pow(pressure, x[2]));
 }
@@ -330,7 +327,7 @@ static void fill_kawakita(const struct gb_equations_points *points, double b, do
 static void start_kawakita(const struct gb_equations_points *points, double *x)
 {
     const double p = middle_pressure(points);
-    search(points, gb_equations_kawakita, 3, 1e-3 / p, 1e3 / p, fill_kawakita, x);
+    search(points, model_kawakita, 3, 1e-3 / p, 1e3 / p, fill_kawakita, x);
 }
 
 /* tau from the mean of ln P. */
@@ -347,7 +344,7 @@ static void fill_adams(const struct gb_equations_points *points, double alpha, d
 
 static void start_adams(const struct gb_equations_points *points, double *x)
 {
-    search(points, gb_equations_adams, 3, 0.1, 100.0, fill_adams, x);
+    search(points, model_adams, 3, 0.1, 100.0, fill_adams, x);
 }
 
 /* K and n by regression of ln ln((r_inf - D0)/(r_inf - rho)) on ln P. */
@@ -372,7 +369,7 @@ static void fill_secondi(const struct gb_equations_points *points, double beyond
 
 static void start_secondi(const struct gb_equations_points *points, double *x)
 {
-    search(points, gb_equations_secondi, 4, 1e-3, 1.0, fill_secondi, x);
+    search(points, model_secondi, 4, 1e-3, 1.0, fill_secondi, x);
 }
 
 /* a1 and a2 by regression: C/C_inf = a1 exp(-k1/P) + a2 exp(-k2/P). */
@@ -388,7 +385,7 @@ static void fill_cooper_eaton(const struct gb_equations_points *points, double *
     solve(&sums, x);
 }
 
-void gb_equations_start_cooper_eaton(const struct gb_equations_points *points, double *x)
+static void start_cooper_eaton(const struct gb_equations_points *points, double *x)
 {
     const double low = 0.1 * points->pressure[0];
     const double high = 3.0 * points->pressure[points->count - 1];
@@ -399,8 +396,7 @@ void gb_equations_start_cooper_eaton(const struct gb_equations_points *points, d
             x[2] = grid_value(low, high, i, GRID_PAIR);
             x[3] = grid_value(low, high, j, GRID_PAIR);
             fill_cooper_eaton(points, x);
-            const double squares =
-                gb_equations_squares(points, gb_equations_cooper_eaton, x);
+            const double squares = gb_equations_squares(points, model_cooper_eaton, x);
             if ((i == 0 && j == 1) || squares < least) {
                 least = squares;
                 memcpy(best, x, sizeof best);
@@ -439,7 +435,7 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_ABOVE_INITIAL,
      .count = 2,
      .parameter = {{"a", "1", false}, {"b", "1/MPa", true}},
-     .density = gb_equations_kawakita,
+     .density = model_kawakita,
      .slope = model_kawakita_slope,
      .start = start_kawakita},
     {.name = "cooper-eaton",
@@ -452,9 +448,9 @@ static const struct gb_equation table[] = {
                    {"a2", "1", false},
                    {"k1", "MPa", true},
                    {"k2", "MPa", true}},
-     .density = gb_equations_cooper_eaton,
+     .density = model_cooper_eaton,
      .slope = model_cooper_eaton_slope,
-     .start = gb_equations_start_cooper_eaton},
+     .start = start_cooper_eaton},
     {.name = "walker",
      .title = "Walker",
      .form = "1/rho = c - K ln P",
@@ -482,7 +478,7 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_ABOVE_INITIAL,
      .count = 2,
      .parameter = {{"tau", "MPa", true}, {"alpha", "1", true}},
-     .density = gb_equations_adams,
+     .density = model_adams,
      .slope = model_adams_slope,
      .start = start_adams},
     {.name = "shapiro-konopicky",
@@ -513,7 +509,7 @@ static const struct gb_equation table[] = {
      .domain = GB_EQUATIONS_ABOVE_INITIAL,
      .count = 3,
      .parameter = {{"r_inf", "1", true}, {"K", "MPa^-n", true}, {"n", "1", true}},
-     .density = gb_equations_secondi,
+     .density = model_secondi,
      .slope = model_secondi_slope,
      .start = start_secondi},
 };

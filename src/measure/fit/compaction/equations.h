@@ -6,32 +6,10 @@
 
 #include "greenbody/status.h"
 
-struct gb_equations_points;
-
-/* Start values of the parameters, from points. */
-typedef void gb_equation_starts_function(const struct gb_equations_points *points,
-                                         double *x);
-
-gb_equation_starts_function gb_equations_start_cooper_eaton;
-
-typedef double gb_equation_density(const double *x, double pressure);
-
-/* x = a, b, D0 */
-gb_equation_density gb_equations_kawakita;
-
-/* x = a1, a2, k1, k2, D0 */
-gb_equation_density gb_equations_cooper_eaton;
-
-/* x = tau, alpha, D0 */
-gb_equation_density gb_equations_adams;
-
-/* x = r_inf, K, n, D0 */
-gb_equation_density gb_equations_secondi;
-
 /* The table of equations of compaction.  Each gives the relative density as a function of
  * the pressure, so that all are fitted to the same errors and can be compared.  An
- * equation is a row in equations.c with its functions in equations.c and
- * equations.c.
+ * equation is a row of the table in equations.c: its density, the slope by its parameters,
+ * and start values for a fit.
  *
  * Pressures P in MPa, rho relative density, D0 initial relative density, C = 1 - D0/rho. */
 
@@ -86,12 +64,13 @@ bool gb_equations_fits_initial(const struct gb_equation *equation,
 /* Fitted parameters. */
 size_t gb_equations_size(const struct gb_equation *equation,
                          const struct gb_equations_points *points);
-/* Parameter k, D0 behind the others. */
+/* Parameter k, D0 after the others. */
 const struct gb_equations_parameter *
 gb_equations_parameter(const struct gb_equation *equation, size_t k);
 
 /* Whether the equation is defined for the points, and they are enough: three more than
- * parameters, at as many pressures as parameters or more.  Errors: GB_ERR_INPUT with the equation and the first point outside. */
+ * parameters, at as many pressures as parameters or more.  Errors: GB_ERR_INPUT with the
+ * equation and the first point outside. */
 bool gb_equations_check(const struct gb_equation *equation,
                         const struct gb_equations_points *points, struct gb_error *err);
 
