@@ -119,7 +119,7 @@ TABLE
 }
 
 # nm -A prints "lib.a:law_rod.c.o:0000 T name" or "dir/law_rod.c.o:0000 T name".  An object of
-# a folder inside a layer is called folder_law_rod.c.o there.  The symbols of figure_axis.c start
+# a folder inside a layer is called folder_law_rod.c.o there.  The symbols of figure_page.c start
 # with gb_figure_ too: the longest file name that fits owns a symbol.
 # i is left out: an ifunc's resolver appears under the function's own name.
 check_exports() { # archive or object

@@ -10,8 +10,7 @@
 
 #include "base/visible.h"
 #include "cli/completion.h"
-#include "draw/image/image.h"
-#include "draw/image/png.h"
+#include "draw/image.h"
 #include "greenbody/status.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
@@ -386,7 +385,7 @@ static bool load_from_picture(struct gb_preset **out, const char *path,
                               struct gb_error *err)
 {
     char *text = NULL;
-    if (!gb_png_read_text(path, "Preset", &text, err)) {
+    if (!gb_image_read_text(path, "Preset", &text, err)) {
         return false;
     }
     char *folder = g_dir_make_tmp("greenbody-XXXXXX", NULL);

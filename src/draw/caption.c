@@ -13,12 +13,12 @@
 
 #include "base/number.h"
 #include "base/units.h"
-#include "draw/figure/figure_axis.h"
-#include "draw/image/image.h"
-#include "draw/image/text.h"
+#include "draw/figure.h"
+#include "draw/image.h"
 #include "draw/picture_colours.h"
 #include "draw/picture_style.h"
 #include "draw/scene.h"
+#include "draw/text.h"
 #include "draw/view.h"
 
 /* Text and lines on an image, in the foreground colour of its background. */
@@ -570,7 +570,7 @@ static void draw_bar_end(const struct pen *pen, const struct gb_frame *bar,
     const double base = above ? bar->top : bar->top + bar->height;
     const double tip = base + (above ? -1.0 : 1.0) * 0.8 * pen->unit;
     uint8_t rgb[3];
-    gb_palette_value(scale->map, above ? 1.0 : 0.0, rgb);
+    gb_image_map_colour(scale->map, above ? 1.0 : 0.0, rgb);
     set_colour(pen, rgb);
     cairo_move_to(pen->cairo, bar->left, base);
     cairo_line_to(pen->cairo, bar->left + 0.5 * bar->width, tip);
@@ -631,7 +631,7 @@ static void draw_one_value(const struct pen *pen, const struct gb_frame *bar,
 {
     uint8_t rgb[3];
     char label[48];
-    gb_palette_value(scale->map, 0.5, rgb);
+    gb_image_map_colour(scale->map, 0.5, rgb);
     set_colour(pen, rgb);
     cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
     cairo_fill(pen->cairo);
@@ -645,7 +645,7 @@ static void draw_gradient(const struct pen *pen, const struct gb_frame *bar,
     const int steps = 256;
     for (int k = 0; k < steps; k++) {
         uint8_t rgb[3];
-        gb_palette_value(scale->map, (k + 0.5) / steps, rgb);
+        gb_image_map_colour(scale->map, (k + 0.5) / steps, rgb);
         const double top = bar->top + bar->height * (1.0 - (k + 1.0) / steps);
         set_colour(pen, rgb);
         cairo_rectangle(pen->cairo, bar->left, top, bar->width,

@@ -6,10 +6,10 @@
 #include <stdint.h>
 
 #include "base/units.h"
-#include "draw/image/image.h"
-#include "draw/image/text.h"
+#include "draw/image.h"
 #include "draw/picture_style.h"
 #include "draw/scene.h"
+#include "draw/text.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
 #include "io/state.h"

@@ -10,11 +10,11 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "draw/caption.h"
-#include "draw/gl/renderer.h"
-#include "draw/image/png.h"
-#include "draw/image/text.h"
+#include "draw/image.h"
+#include "draw/renderer.h"
 #include "draw/rose.h"
 #include "draw/scene.h"
+#include "draw/text.h"
 
 void gb_packing_image_init(struct gb_packing_image *packing_image)
 {
@@ -114,7 +114,7 @@ void gb_packing_image_describe(struct gb_packing_image_texts *texts,
     gb_curve_branch_name(&state->point, branch, sizeof branch);
     snprintf(texts->point, sizeof texts->point, "%s, step %" PRId64, branch,
              state->point.step);
-    const struct gb_png_text all[] = {
+    const struct gb_image_text all[] = {
         {"Software", "greenbody " GB_VERSION},
         {"Title", state->preset},
         {"Seed", texts->seed},
@@ -127,10 +127,10 @@ void gb_packing_image_describe(struct gb_packing_image_texts *texts,
     texts->count = (int)(sizeof all / sizeof all[0]) - (preset == NULL);
 }
 
-enum gb_png_alpha gb_packing_image_alpha(const struct gb_packing_image *packing_image)
+enum gb_image_alpha gb_packing_image_alpha(const struct gb_packing_image *packing_image)
 {
-    return packing_image->background == GB_BACKGROUND_TRANSPARENT ? GB_PNG_ALPHA
-                                                                  : GB_PNG_OPAQUE;
+    return packing_image->background == GB_BACKGROUND_TRANSPARENT ? GB_IMAGE_ALPHA
+                                                                  : GB_IMAGE_OPAQUE;
 }
 
 bool gb_packing_image_save(const struct gb_image *image,
@@ -140,8 +140,8 @@ bool gb_packing_image_save(const struct gb_image *image,
 {
     struct gb_packing_image_texts texts;
     gb_packing_image_describe(&texts, state, packing_image->preset);
-    return gb_png_write(image, gb_packing_image_alpha(packing_image), texts.text,
-                        texts.count, path, err);
+    return gb_image_write(image, gb_packing_image_alpha(packing_image), texts.text,
+                          texts.count, path, err);
 }
 
 bool gb_packing_image_write(const struct gb_packing_image *packing_image,
@@ -173,7 +173,7 @@ static void copy(const struct gb_image *from, struct gb_image *to, int left, int
 
 static bool draw_rose(struct gb_image *image,
                       const struct gb_packing_image *packing_image,
-                      const struct gb_harmonics *rose, double reach, double newton,
+                      const struct gb_rose *rose, double reach, double newton,
                       struct gb_error *err)
 {
     const struct gb_frame whole = {0.0, 0.0, image->width, image->height};
@@ -206,7 +206,7 @@ static bool draw_rose(struct gb_image *image,
 static bool render_rose(struct row *row, const struct gb_packing_image *packing_image,
                         const struct gb_state *state, double reach, struct gb_error *err)
 {
-    struct gb_harmonics rose;
+    struct gb_rose rose;
     const double newton =
         state->pascal_per_stress * state->metre_per_length * state->metre_per_length;
     if (!gb_rose_of_state(&rose, state, err) ||
@@ -226,7 +226,7 @@ static bool find_reach(struct gb_state *const *states, size_t count, double *rea
 {
     *reach = 1.0;
     for (size_t i = 0; i < count; i++) {
-        struct gb_harmonics rose;
+        struct gb_rose rose;
         if (!gb_rose_of_state(&rose, states[i], err)) {
             return false;
         }

@@ -4,9 +4,8 @@
 #include <stdbool.h>
 
 #include "draw/caption.h"
-#include "draw/gl/renderer.h"
-#include "draw/image/image.h"
-#include "draw/image/png.h"
+#include "draw/image.h"
+#include "draw/renderer.h"
 #include "draw/scene.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
@@ -16,7 +15,7 @@
  * caption, file). */
 struct gb_packing_image {
     int width, height; /* of the page; the largest ones of a side that is cropped */
-    int per_inch;      /* pixels in print; 0: none (draw/image/image.h) */
+    int per_inch;      /* pixels in print; 0: none (draw/image.h) */
     enum gb_caption_crop crop;
     struct gb_viewpoint viewpoint;
     enum gb_background background;
@@ -51,11 +50,11 @@ bool gb_packing_image_save(const struct gb_image *image,
                            struct gb_error *err);
 
 /* Whether the PNG needs an alpha channel: for a transparent background. */
-enum gb_png_alpha gb_packing_image_alpha(const struct gb_packing_image *packing_image);
+enum gb_image_alpha gb_packing_image_alpha(const struct gb_packing_image *packing_image);
 
 /* Text chunks; they point into the struct and to its arguments. */
 struct gb_packing_image_texts {
-    struct gb_png_text text[8];
+    struct gb_image_text text[8];
     int count;
     char seed[24], point[96], density[32], pressure[48];
 };

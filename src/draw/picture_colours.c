@@ -167,7 +167,7 @@ static bool fit_whole(struct gb_picture_style_scale *scale, const int32_t *numbe
 {
     scale->whole = true;
     scale->map = request->map;
-    scale->high = GB_PALETTE_CONTACTS;
+    scale->high = GB_IMAGE_MAP_CONTACTS;
     if (request->log) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "--log: whole numbers; expected with --color pressure, size "
@@ -194,7 +194,7 @@ void gb_picture_colours_at(const struct gb_picture_style_scale *scale, double va
                 : value > 0.0 ? log(value / scale->low) / log(scale->high / scale->low)
                               : 0.0;
     }
-    gb_palette_value(scale->map, share, rgb);
+    gb_image_map_colour(scale->map, share, rgb);
 }
 
 /* Diameters below this are shown in nm, others in um; m. */

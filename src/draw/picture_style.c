@@ -501,7 +501,7 @@ bool gb_picture_style_parse_range(struct gb_picture_style_request *request,
 char *gb_picture_style_parse_colormaps(void)
 {
     GString *names = g_string_new(NULL);
-    for (const struct gb_palette_map *map = gb_palette_maps(); map->name; map++) {
+    for (const struct gb_image_map *map = gb_image_maps(); map->name; map++) {
         g_string_append_printf(names, "%s%s", names->len > 0 ? ", " : "", map->name);
     }
     return g_string_free(names, FALSE);
@@ -510,7 +510,7 @@ char *gb_picture_style_parse_colormaps(void)
 bool gb_picture_style_parse_colormap(struct gb_picture_style_request *request,
                                      const char *text, struct gb_error *err)
 {
-    request->map = gb_palette_find(text);
+    request->map = gb_image_find(text);
     if (request->map != NULL) {
         return true;
     }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "draw/image/palette.h"
+#include "draw/image.h"
 #include "greenbody/status.h"
 #include "io/state.h"
 
@@ -34,9 +34,9 @@ struct gb_picture_style_request {
     double low, high; /* ends of the colour scale in its unit; equal: see the next */
     bool ranged;      /* ends of the colour scale are given; else from the state */
     double range_si[2];
-    const struct gb_palette_map *map; /* colours of values; NULL: viridis */
-    bool log;                         /* logarithmic scale */
-    double max_force_n; /* force of the thickest rod, N; 0: from the state */
+    const struct gb_image_map *map; /* colours of values; NULL: viridis */
+    bool log;                       /* logarithmic scale */
+    double max_force_n;             /* force of the thickest rod, N; 0: from the state */
 };
 
 /* All particles, coloured by coordination number. */
@@ -49,7 +49,7 @@ struct gb_picture_style_scale {
     double low, high;  /* values at the ends; equal: all particles have this value */
     bool log;          /* low and high are above 0 */
     bool below, above; /* values exist beyond the ends */
-    const struct gb_palette_map *map;
+    const struct gb_image_map *map;
 };
 
 /* Legend entry of a class of forces. */

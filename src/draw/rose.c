@@ -1,11 +1,103 @@
+/* The rose of forces: the mean force of the contacts along each direction.  It is fitted with the
+ * even spherical harmonics of orders 0, 2 and 4 by least squares, and drawn as a surface. */
 #include "draw/rose.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/image/palette.h"
+#include "base/vec.h"
+#include "draw/image.h"
+#include "greenbody/status.h"
 #include "pack/cell/cell.h"
+
+/* Powers of x, y, z of the terms. */
+static const int power[GB_ROSE_TERMS][3] = {
+    {4, 0, 0}, {0, 0, 4}, {2, 0, 2}, {3, 0, 1}, {1, 0, 3},
+    {0, 4, 0}, {2, 2, 0}, {0, 2, 2}, {3, 1, 0}, {1, 3, 0},
+    {0, 3, 1}, {0, 1, 3}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2},
+};
+
+/* The first five terms are those of the plane y = 0. */
+enum { PLANAR_TERMS = 5 };
+
+static double raise(double x, int exponent)
+{
+    double result = 1.0;
+    for (int k = 0; k < exponent; k++) {
+        result *= x;
+    }
+    return result;
+}
+
+static void terms_of(const double direction[3], double *term)
+{
+    const double size = gb_vec_length(direction);
+    for (int k = 0; k < GB_ROSE_TERMS; k++) {
+        term[k] = raise(direction[0] / size, power[k][0]) *
+                  raise(direction[1] / size, power[k][1]) *
+                  raise(direction[2] / size, power[k][2]);
+    }
+}
+
+/* Normal equations of the terms; returns the mean of the values. */
+static double add_up(double *matrix, double *right, size_t terms, const double *axis,
+                     const double *value, size_t count)
+{
+    double sum = 0.0;
+    memset(matrix, 0, terms * terms * sizeof *matrix);
+    memset(right, 0, terms * sizeof *right);
+    for (size_t i = 0; i < count; i++) {
+        double term[GB_ROSE_TERMS];
+        terms_of(&axis[3 * i], term);
+        for (size_t a = 0; a < terms; a++) {
+            for (size_t b = 0; b < terms; b++) {
+                matrix[a * terms + b] += term[a] * term[b];
+            }
+            right[a] += term[a] * value[i];
+        }
+        sum += value[i];
+    }
+    return sum / (double)count;
+}
+
+bool gb_rose_fit(struct gb_rose *rose, int dimension, const double *axis,
+                 const double *value, size_t count, struct gb_error *err)
+{
+    double matrix[GB_ROSE_TERMS * GB_ROSE_TERMS];
+    double right[GB_ROSE_TERMS];
+    const size_t terms = dimension == 2 ? PLANAR_TERMS : GB_ROSE_TERMS;
+    *rose = (struct gb_rose){.count = count, .dimension = dimension};
+    if (count < terms) {
+        return gb_error_set(err, GB_ERR_INPUT, "rose of %zu forces: must be at least %zu",
+                            count, terms);
+    }
+    rose->mean = add_up(matrix, right, terms, axis, value, count);
+    gsl_matrix_view a = gsl_matrix_view_array(matrix, terms, terms);
+    gsl_vector_view b = gsl_vector_view_array(right, terms);
+    gsl_vector_view x = gsl_vector_view_array(rose->term, terms);
+    if (gsl_linalg_cholesky_decomp1(&a.matrix) != GSL_SUCCESS ||
+        gsl_linalg_cholesky_solve(&a.matrix, &b.vector, &x.vector) != GSL_SUCCESS) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "rose of %zu forces: too few different directions", count);
+    }
+    return true;
+}
+
+double gb_rose_at(const struct gb_rose *rose, const double direction[3])
+{
+    double term[GB_ROSE_TERMS];
+    double sum = 0.0;
+    terms_of(direction, term);
+    for (int k = 0; k < GB_ROSE_TERMS; k++) {
+        sum += rose->term[k] * term[k];
+    }
+    return sum;
+}
 
 /* Meridians and parallels of the surface, segments of a ring and of a planar rose. */
 enum { AROUND = 160, DOWN = 80, RING = 72, PLANAR = 2 * DOWN };
@@ -20,7 +112,7 @@ static const double axis_radius = 0.012;
  * title.  The corners of the box around a body leave that room. */
 static const double label_room = 0.2;
 
-bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
+bool gb_rose_of_state(struct gb_rose *rose, const struct gb_state *state,
                       struct gb_error *err)
 {
     const size_t count = (size_t)state->pair_count;
@@ -38,7 +130,7 @@ bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
         gb_cell_nearest(&cell, &axis[3 * k]);
     }
     const bool good =
-        gb_harmonics_fit(rose, state->dimension, axis, state->pair_normal, count, err);
+        gb_rose_fit(rose, state->dimension, axis, state->pair_normal, count, err);
     gb_alloc_free(axis);
     return good;
 }
@@ -52,12 +144,12 @@ static void direction(int around, int down, double out[3])
     out[2] = cos(b);
 }
 
-static double radius_at(const struct gb_harmonics *rose, const double towards[3])
+static double radius_at(const struct gb_rose *rose, const double towards[3])
 {
-    return fmax(gb_harmonics_at(rose, towards) / rose->mean, 0.0);
+    return fmax(gb_rose_at(rose, towards) / rose->mean, 0.0);
 }
 
-double gb_rose_reach(const struct gb_harmonics *rose)
+double gb_rose_reach(const struct gb_rose *rose)
 {
     double most = 1.0;
     for (int down = 0; down <= DOWN; down++) {
@@ -72,8 +164,8 @@ double gb_rose_reach(const struct gb_harmonics *rose)
 }
 
 /* Vertex of the surface in eye coordinates; its radius is added to *sum. */
-static void corner(const struct gb_scene *scene, const struct gb_harmonics *rose,
-                   double reach, int around, int down, float *out, double *sum)
+static void corner(const struct gb_scene *scene, const struct gb_rose *rose, double reach,
+                   int around, int down, float *out, double *sum)
 {
     double towards[3];
     double point[3];
@@ -90,8 +182,7 @@ static void corner(const struct gb_scene *scene, const struct gb_harmonics *rose
     *sum += radius;
 }
 
-static void set_surface(struct gb_scene *scene, const struct gb_harmonics *rose,
-                        double reach)
+static void set_surface(struct gb_scene *scene, const struct gb_rose *rose, double reach)
 {
     static const int corners[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}},
                                          {{0, 0}, {1, 1}, {1, 0}}};
@@ -105,7 +196,7 @@ static void set_surface(struct gb_scene *scene, const struct gb_harmonics *rose,
                     corner(scene, rose, reach, around + corners[half][k][0],
                            down + corners[half][k][1], facet + 3 * k, &sum);
                 }
-                gb_palette_value(NULL, sum / 3.0 / reach, colour);
+                gb_image_map_colour(NULL, sum / 3.0 / reach, colour);
                 colour[3] = 255;
                 facet += 9;
                 colour += 4;
@@ -115,8 +206,7 @@ static void set_surface(struct gb_scene *scene, const struct gb_harmonics *rose,
 }
 
 /* Of 2D: triangles from the centre to the outline in the plane y = 0. */
-static void set_plane(struct gb_scene *scene, const struct gb_harmonics *rose,
-                      double reach)
+static void set_plane(struct gb_scene *scene, const struct gb_rose *rose, double reach)
 {
     const double centre[3] = {reach, reach, reach};
     uint8_t *colour = scene->colour + 4 * (scene->count + scene->rods);
@@ -133,7 +223,7 @@ static void set_plane(struct gb_scene *scene, const struct gb_harmonics *rose,
             corner(scene, rose, reach, at <= DOWN ? 0 : OPPOSITE,
                    at <= DOWN ? at : PLANAR - at, facet + 3 + 3 * end, &sum);
         }
-        gb_palette_value(NULL, sum / 2.0 / reach, colour + 4 * k);
+        gb_image_map_colour(NULL, sum / 2.0 / reach, colour + 4 * k);
         colour[4 * k + 3] = 255;
     }
 }
@@ -160,8 +250,7 @@ static void set_rod(struct gb_scene *scene, size_t index, const double from[3],
 }
 
 /* Three axes through the centre, and three rings of radius 1; of 2D those of its plane. */
-static void set_frame(struct gb_scene *scene, const struct gb_harmonics *rose,
-                      double reach)
+static void set_frame(struct gb_scene *scene, const struct gb_rose *rose, double reach)
 {
     const bool planar = rose->dimension == 2;
     size_t index = 0;
@@ -187,7 +276,7 @@ static void set_frame(struct gb_scene *scene, const struct gb_harmonics *rose,
     }
 }
 
-bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, double reach,
+bool gb_rose_scene(struct gb_scene **out, const struct gb_rose *rose, double reach,
                    const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
                    enum gb_background background, struct gb_error *err)
 {

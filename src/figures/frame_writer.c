@@ -10,8 +10,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "draw/image/image.h"
-#include "draw/image/png.h"
+#include "draw/image.h"
 #include "figures/output_formats.h"
 #include "greenbody/status.h"
 
@@ -177,7 +176,7 @@ char *gb_frame_writer_path(const char *path, int number)
 struct apng_writer {
     struct gb_frame_output output;
     struct gb_packing_image_texts texts;
-    struct gb_png_animation *apng;
+    struct gb_image_animation *apng;
 };
 
 static bool close_apng(void *data, bool done, struct gb_error *err)
@@ -186,8 +185,8 @@ static bool close_apng(void *data, bool done, struct gb_error *err)
     if (writer == NULL) {
         return done;
     }
-    done = done && gb_png_animation_write(writer->apng, writer->output.path, err);
-    gb_png_animation_destroy(writer->apng);
+    done = done && gb_image_animation_write(writer->apng, writer->output.path, err);
+    gb_image_animation_destroy(writer->apng);
     g_free(writer);
     return done;
 }
@@ -199,9 +198,9 @@ static bool open_apng(void **out, const struct gb_frame_output *output,
     writer->output = *output;
     gb_packing_image_describe(&writer->texts, first, output->packing_image->preset);
     *out = writer;
-    return gb_png_animation_create(&writer->apng, output->count,
-                                   gb_packing_image_alpha(output->packing_image),
-                                   writer->texts.text, writer->texts.count, err);
+    return gb_image_animation_create(&writer->apng, output->count,
+                                     gb_packing_image_alpha(output->packing_image),
+                                     writer->texts.text, writer->texts.count, err);
 }
 
 static bool add_apng(void *data, const struct gb_image *image,
@@ -211,8 +210,8 @@ static bool add_apng(void *data, const struct gb_image *image,
     (void)state;
     const int frame_ms = (int)lround(1000.0 / writer->output.frames_per_s);
     const bool last = number == writer->output.count;
-    return gb_png_animation_add(writer->apng, image,
-                                last ? MAX(frame_ms, last_frame_ms) : frame_ms, err);
+    return gb_image_animation_add(writer->apng, image,
+                                  last ? MAX(frame_ms, last_frame_ms) : frame_ms, err);
 }
 
 const struct gb_frame_writer gb_frame_writer_apng = {open_apng, add_apng, close_apng};

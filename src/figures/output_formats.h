@@ -1,7 +1,7 @@
 #ifndef GB_FIGURES_OUTPUT_FORMATS_H
 #define GB_FIGURES_OUTPUT_FORMATS_H
 
-#include "draw/figure/figure.h"
+#include "draw/figure.h"
 
 /* The table of output formats: extension of a file -> writer.  A format is a writer and a
  * row in output_formats.c; messages and help follow from the row. */

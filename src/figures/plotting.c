@@ -85,14 +85,14 @@ static bool write_figure(const struct gb_series *series,
     gb_series_figure(series, &figure, &curves);
     figure.title = title;
     figure.per_inch = page->per_inch;
-    struct gb_png_text texts[5] = {{"Software", "greenbody " GB_VERSION},
-                                   {"Title", page->name}};
+    struct gb_image_text texts[5] = {{"Software", "greenbody " GB_VERSION},
+                                     {"Title", page->name}};
     int count = 2;
     if (*runs != '\0') {
-        texts[count++] = (struct gb_png_text){"Runs", runs};
+        texts[count++] = (struct gb_image_text){"Runs", runs};
     }
     if (preset != NULL) {
-        texts[count++] = (struct gb_png_text){"Preset", preset};
+        texts[count++] = (struct gb_image_text){"Preset", preset};
     }
     const bool good =
         writer(&figure, page->width, page->height, texts, count, output, err);

@@ -7,7 +7,7 @@
 #include <glib.h>
 
 #include "base/file.h"
-#include "draw/image/text.h"
+#include "draw/text.h"
 #include "figures/frame_writer.h"
 #include "figures/output_formats.h"
 #include "figures/states.h"

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "draw/figure/figure.h"
+#include "draw/figure.h"
 #include "greenbody/status.h"
 #include "many/runset.h"
 

@@ -3,7 +3,7 @@
 #include <glib/gstdio.h>
 #include <string.h>
 
-#include "draw/image/png.h"
+#include "draw/image.h"
 
 enum { WIDTH = 40, HEIGHT = 30, FRAMES = 3 };
 
@@ -31,18 +31,18 @@ static void dot(struct gb_image *image, int x, int y)
 
 static void write_film(const char *path)
 {
-    const struct gb_png_text text = {"Seed", "7"};
-    struct gb_png_animation *apng = NULL;
+    const struct gb_image_text text = {"Seed", "7"};
+    struct gb_image_animation *apng = NULL;
     struct gb_error err = {0};
     struct gb_image *image = canvas();
-    g_assert_true(gb_png_animation_create(&apng, FRAMES, true, &text, 1, &err));
-    g_assert_true(gb_png_animation_add(apng, image, 125, &err));
+    g_assert_true(gb_image_animation_create(&apng, FRAMES, true, &text, 1, &err));
+    g_assert_true(gb_image_animation_add(apng, image, 125, &err));
     dot(image, 5, 7);
     dot(image, 20, 11);
-    g_assert_true(gb_png_animation_add(apng, image, 125, &err));
-    g_assert_true(gb_png_animation_add(apng, image, 1500, &err)); /* nothing new */
-    g_assert_true(gb_png_animation_write(apng, path, &err));
-    gb_png_animation_destroy(apng);
+    g_assert_true(gb_image_animation_add(apng, image, 125, &err));
+    g_assert_true(gb_image_animation_add(apng, image, 1500, &err)); /* nothing new */
+    g_assert_true(gb_image_animation_write(apng, path, &err));
+    gb_image_animation_destroy(apng);
     gb_image_destroy(image);
 }
 
@@ -107,7 +107,7 @@ static void test_film(void)
     g_assert_cmpuint(size, ==, other);
     g_assert_cmpint(memcmp(png, same, size), ==, 0);
     check_chunks(png, size);
-    g_assert_true(gb_png_read_text(path, "Seed", &seed, &err));
+    g_assert_true(gb_image_read_text(path, "Seed", &seed, &err));
     g_assert_cmpstr(seed, ==, "7");
     g_remove(path);
     g_remove(again);

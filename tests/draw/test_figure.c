@@ -1,12 +1,12 @@
 /* Figures: axes as numbers, and ink at known places of the page. */
-#include "draw/figure/figure.h"
+#include "draw/figure.h"
 
 #include <glib.h>
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
 
-#include "draw/figure/figure_curve.h"
+#include "draw/figure_curve.h"
 
 enum { WIDE = 800, HIGH = 600, POINTS = 50 };
 

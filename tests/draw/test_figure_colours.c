@@ -1,6 +1,6 @@
 /* The colours of curves are told apart with normal colour vision, with the three common kinds
  * of dichromatic vision, and beside the black of measured points: computed. */
-#include "draw/figure/figure.h"
+#include "draw/figure.h"
 
 #include <glib.h>
 #include <math.h>

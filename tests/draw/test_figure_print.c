@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "draw/figure/figure.h"
-#include "draw/image/image.h"
+#include "draw/figure.h"
+#include "draw/image.h"
 
 enum { POINTS = 60, CURVES = 6, WIDE = 945, HIGH = 709, PER_INCH = 300 }; /* 8 cm */
 
@@ -103,7 +103,8 @@ static void test_columns(void)
     gb_image_destroy(paint(&page.figure, &two));
     make(&page, "d = 10.4 nm, alpha = 0.37, mu = 0.13");
     gb_image_destroy(paint(&page.figure, &one));
-    const double ratio = (two.legend[3] - two.legend[1]) / (one.legend[3] - one.legend[1]);
+    const double ratio =
+        (two.legend[3] - two.legend[1]) / (one.legend[3] - one.legend[1]);
     g_assert_cmpfloat(ratio, <, 0.6);
 }
 

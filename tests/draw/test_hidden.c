@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/gl/hidden.h"
+#include "draw/hidden.h"
 
 enum { WIDTH = 240, HEIGHT = 180, SPHERES = 3000, RODS = 400 };
 

@@ -3,12 +3,11 @@
 
 #include <glib.h>
 #include <glib/gstdio.h>
-#include <math.h>
 #include <png.h>
+#include <math.h>
 #include <string.h>
 
-#include "draw/image/palette.h"
-#include "draw/image/png.h"
+#include "draw/image.h"
 #include "draw/picture_style.h"
 
 /* The coordination number whose colour has the hue nearest to a lit pixel. */
@@ -17,9 +16,9 @@ static int nearest_contacts(const uint8_t *pixel)
     int best = -1;
     double closest = 1e9;
     const double size = hypot(hypot(pixel[0], pixel[1]), pixel[2]);
-    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+    for (int k = 0; k <= GB_IMAGE_MAP_CONTACTS; k++) {
         uint8_t rgb[3];
-        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
+        gb_image_map_colour(NULL, (double)k / GB_IMAGE_MAP_CONTACTS, rgb);
         const double full = hypot(hypot(rgb[0], rgb[1]), rgb[2]);
         double far = 0.0;
         for (int c = 0; c < 3; c++) {
@@ -254,10 +253,10 @@ static void test_file(void)
     packing_image.preset = "[scene]\ntitle = Al₂O₃\n";
     g_assert_true(gb_packing_image_write(&packing_image, state, path, &err));
     char *preset = NULL;
-    g_assert_true(gb_png_read_text(path, "Preset", &preset, &err));
+    g_assert_true(gb_image_read_text(path, "Preset", &preset, &err));
     g_assert_cmpstr(preset, ==, packing_image.preset);
     g_free(preset);
-    g_assert_false(gb_png_read_text(path, "Nothing", &preset, &err));
+    g_assert_false(gb_image_read_text(path, "Nothing", &preset, &err));
     g_assert_nonnull(strstr(err.text, "no text chunk Nothing"));
 
     FILE *file = fopen(path, "rb");

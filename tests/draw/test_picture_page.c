@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "draw/caption.h"
-#include "draw/image/image.h"
-#include "draw/image/palette.h"
+#include "draw/image.h"
 #include "draw/picture_colours.h"
 
 static void test_colour_bar(void)
@@ -20,11 +19,11 @@ static void test_colour_bar(void)
     packing_image.height = 600;
     struct gb_image *image = small_packing_paint(&packing_image, state);
     gb_scene_destroy(small_packing_scene(&packing_image, state, &layout));
-    const double step = layout.bar.height / (GB_PALETTE_CONTACTS + 1);
-    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+    const double step = layout.bar.height / (GB_IMAGE_MAP_CONTACTS + 1);
+    for (int k = 0; k <= GB_IMAGE_MAP_CONTACTS; k++) {
         uint8_t rgb[3];
         const double y = layout.bar.top + layout.bar.height - (k + 0.5) * step;
-        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
+        gb_image_map_colour(NULL, (double)k / GB_IMAGE_MAP_CONTACTS, rgb);
         const uint8_t *pixel =
             small_packing_pixel(image, layout.bar.left + 0.5 * layout.bar.width, y);
         g_assert_cmpint(memcmp(pixel, rgb, 3), ==, 0);
@@ -49,7 +48,7 @@ static void test_one_value(void)
     }
     struct gb_image *image = small_packing_paint(&packing_image, state);
     gb_scene_destroy(small_packing_scene(&packing_image, state, &layout));
-    gb_palette_value(NULL, 0.5, rgb);
+    gb_image_map_colour(NULL, 0.5, rgb);
     for (double part = 0.05; part < 1.0; part += 0.1) {
         const uint8_t *pixel =
             small_packing_pixel(image, layout.bar.left + 0.5 * layout.bar.width,

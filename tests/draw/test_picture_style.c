@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/image/palette.h"
+#include "draw/image.h"
 #include "draw/picture_colours.h"
 #include "io/state_forces.h"
 
@@ -101,16 +101,16 @@ static void test_colours(void)
     g_assert_cmpstr(style->scale.title, ==, "diameter (nm)");
     g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(style->scale.high, 16.0, 1e-9);
-    gb_palette_value(NULL, 0.0, rgb);
+    gb_image_map_colour(NULL, 0.0, rgb);
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
-    gb_palette_value(NULL, 1.0, rgb);
+    gb_image_map_colour(NULL, 1.0, rgb);
     g_assert_cmpint(memcmp(style->colour + 9, rgb, 3), ==, 0);
     gb_picture_style_destroy(style);
     request.particles = gb_picture_colours_find("bridges");
     style = create_style(state, &request);
-    gb_palette_value(NULL, 1.0 / GB_PALETTE_CONTACTS, rgb);
+    gb_image_map_colour(NULL, 1.0 / GB_IMAGE_MAP_CONTACTS, rgb);
     g_assert_cmpint(memcmp(style->colour + 3, rgb, 3), ==, 0);
-    gb_palette_value(NULL, 0.0, rgb);
+    gb_image_map_colour(NULL, 0.0, rgb);
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
     gb_picture_style_destroy(style);
     gb_state_destroy(state);
@@ -132,7 +132,7 @@ static void test_one_size(void)
     g_assert_cmpfloat(style->scale.low, ==, style->scale.high);
     g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
     g_assert_false(style->scale.below || style->scale.above);
-    gb_palette_value(NULL, 0.5, rgb);
+    gb_image_map_colour(NULL, 0.5, rgb);
     for (int i = 0; i < 4; i++) {
         g_assert_cmpint(memcmp(style->colour + 3 * i, rgb, 3), ==, 0);
     }
@@ -225,9 +225,9 @@ static void test_range_given(void)
     g_assert_cmpfloat_with_epsilon(style->scale.low, 20.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(style->scale.high, 50.0, 1e-9);
     g_assert_true(style->scale.below && style->scale.above);
-    gb_palette_value(NULL, 0.0, rgb);
+    gb_image_map_colour(NULL, 0.0, rgb);
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
-    gb_palette_value(NULL, 1.0, rgb);
+    gb_image_map_colour(NULL, 1.0, rgb);
     g_assert_cmpint(memcmp(style->colour + 3 * 99, rgb, 3), ==, 0);
     gb_picture_style_destroy(style);
     gb_state_destroy(state);
@@ -262,7 +262,7 @@ static void test_log(void)
     g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(style->scale.high, 1e4, 1e-6);
     for (int i = 0; i < 4; i++) {
-        gb_palette_value(NULL, i / 3.0, rgb);
+        gb_image_map_colour(NULL, i / 3.0, rgb);
         g_assert_cmpint(memcmp(style->colour + 3 * i, rgb, 3), ==, 0);
     }
     gb_picture_style_destroy(style);
@@ -297,7 +297,7 @@ static void test_colormap(void)
     g_assert_true(gb_picture_style_parse_colour(&request, "coordination", &err));
     g_assert_true(gb_picture_style_parse_range(&request, "1:3", &err));
     style = create_style(state, &request);
-    gb_palette_value(request.map, 0.5, rgb); /* 2 of 1, 2, 3 */
+    gb_image_map_colour(request.map, 0.5, rgb); /* 2 of 1, 2, 3 */
     g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
     g_assert_cmpint(rgb[0], >, 230);
     gb_picture_style_destroy(style);
@@ -330,7 +330,7 @@ static void lab_of(const uint8_t rgb[3], double lab[3])
  * falls alike on both sides of the middle. */
 static void test_maps(void)
 {
-    for (const struct gb_palette_map *map = gb_palette_maps(); map->name; map++) {
+    for (const struct gb_image_map *map = gb_image_maps(); map->name; map++) {
         double lab[17][3], mean = 0.0;
         for (int k = 0; k < 17; k++) {
             lab_of(map->anchor[k], lab[k]);

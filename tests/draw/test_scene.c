@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/image/image.h"
-#include "draw/image/palette.h"
+#include "draw/image.h"
 #include "draw/rose.h"
 
 static const struct gb_frame frame = {100.0, 50.0, 800.0, 600.0};
@@ -157,18 +156,18 @@ static void test_palette(void)
     double last = -1.0;
     uint8_t top[3];
     uint8_t beyond[3];
-    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+    for (int k = 0; k <= GB_IMAGE_MAP_CONTACTS; k++) {
         uint8_t rgb[3];
-        gb_palette_value(NULL, (double)k / GB_PALETTE_CONTACTS, rgb);
+        gb_image_map_colour(NULL, (double)k / GB_IMAGE_MAP_CONTACTS, rgb);
         const double light = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
         g_assert_cmpfloat(light, >, last + 5.0);
         last = light;
     }
-    gb_palette_value(NULL, 1.0, top);
-    gb_palette_value(NULL, 100.0, beyond);
+    gb_image_map_colour(NULL, 1.0, top);
+    gb_image_map_colour(NULL, 100.0, beyond);
     g_assert_cmpint(memcmp(top, beyond, 3), ==, 0);
-    gb_palette_value(NULL, 0.0, top);
-    gb_palette_value(NULL, -3.0 / GB_PALETTE_CONTACTS, beyond);
+    gb_image_map_colour(NULL, 0.0, top);
+    gb_image_map_colour(NULL, -3.0 / GB_IMAGE_MAP_CONTACTS, beyond);
     g_assert_cmpint(memcmp(top, beyond, 3), ==, 0);
 }
 
@@ -185,7 +184,7 @@ static void test_scene(void)
     g_assert_cmpint(scene->edge_count, ==, 12);
     for (int k = 0; k < 3; k++) {
         uint8_t rgb[3];
-        gb_palette_value(NULL, (double)(6 * k) / GB_PALETTE_CONTACTS, rgb);
+        gb_image_map_colour(NULL, (double)(6 * k) / GB_IMAGE_MAP_CONTACTS, rgb);
         g_assert_cmpint(memcmp(rgb, &scene->colour[4 * k], 3), ==, 0);
         g_assert_cmpfloat(scene->sphere[4 * k + 3], ==, 0.5F);
     }
@@ -246,14 +245,14 @@ static void test_planar_rose(void)
     static double axis[3 * FORCES], value[FORCES];
     struct gb_error err = {0};
     struct gb_scene *scene = NULL;
-    struct gb_harmonics rose;
+    struct gb_rose rose;
     const struct gb_viewpoint viewpoint = {.azimuth_deg = -58.0, .elevation_deg = 20.0};
     for (int k = 0; k < FORCES; k++) {
         axis[3 * k] = cos(M_PI * k / FORCES);
         axis[3 * k + 2] = sin(M_PI * k / FORCES);
         value[k] = 1.0 + 0.5 * axis[3 * k + 2] * axis[3 * k + 2];
     }
-    g_assert_true(gb_harmonics_fit(&rose, 2, axis, value, FORCES, &err));
+    g_assert_true(gb_rose_fit(&rose, 2, axis, value, FORCES, &err));
     const double reach = gb_rose_reach(&rose);
     g_assert_cmpfloat_with_epsilon(reach, 1.4, 1e-9); /* 1.5/1.25, rounded up */
     g_assert_true(gb_rose_scene(&scene, &rose, reach, &viewpoint, &frame,

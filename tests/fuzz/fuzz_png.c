@@ -2,7 +2,7 @@
 
 #include <glib.h>
 
-#include "draw/image/png.h"
+#include "draw/image.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -10,7 +10,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *value = NULL;
     struct gb_error err = {0};
     const int fd = target_open(data, size, path);
-    if (!gb_png_read_text(path, "greenbody", &value, &err) && err.text[0] == '\0') {
+    if (!gb_image_read_text(path, "greenbody", &value, &err) && err.text[0] == '\0') {
         abort();
     }
     g_free(value);

@@ -1,18 +1,463 @@
 /* Pictures of a scene by OpenGL, in tiles, so that memory is bounded.  Each tile has four
- * passes, with the shaders of shaders.h: what every sample sees (index and depth of spheres,
+ * passes: what every sample sees (index and depth of spheres,
  * rods, facets and edges), the colour of every sample with shadow and occlusion, translucent
  * walls over them, and the mean of the samples of each pixel.  The depths that the light
  * sees are drawn once for all tiles. */
-#include "draw/gl/renderer.h"
+
+#include "draw/renderer.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/gl/gl_context.h"
-#include "draw/gl/hidden.h"
-#include "draw/gl/shaders.h"
+#include "draw/gl_context.h"
+#include "draw/hidden.h"
+
+/* The GLSL of one program. */
+struct shader {
+    const char *vertex, *fragment;
+    const char *more; /* second part of the fragment shader; "": none */
+};
+
+/* projection: pixel of the axis, focal length in samples, 1 when orthographic.
+ * depth_range: depth of 0 and of 1 in the depth buffer, which is linear. */
+#define GLSL_CAMERA "uniform vec4 projection;\nuniform vec2 depth_range;\n"
+
+/* Half-spaces n p > c: normal and c. */
+#define GLSL_CUTS "uniform int cuts;\nuniform vec4 cut[3];\n"
+
+/* Intersection of a ray and a sphere.  Distances are measured from the point of the ray
+ * nearest to the centre: the plain quadratic loses all digits when the viewer is many
+ * diameters away. */
+static const char sphere_vertex[] =
+    "#version 330 core\n" GLSL_CAMERA "uniform samplerBuffer spheres;\n"
+    "uniform vec2 size;\n"
+    "uniform mat3 rotation;\n"
+    "uniform vec3 translation;\n"
+    "layout(location = 0) in uint index;\n"
+    "flat out vec4 ball;\n"
+    "flat out uint id;\n"
+    "void main()\n"
+    "{\n"
+    "    vec4 raw = texelFetch(spheres, int(index));\n"
+    "    ball = vec4(rotation * raw.xyz + translation, raw.w);\n"
+    "    id = index;\n"
+    "    vec2 low = ball.xy - ball.w;\n"
+    "    vec2 high = ball.xy + ball.w;\n"
+    "    if (projection.w == 0.0) {\n"
+    "        float d = ball.z * ball.z - ball.w * ball.w;\n"
+    "        vec2 s = ball.w * sqrt(ball.xy * ball.xy + d);\n"
+    "        low = (ball.xy * ball.z - s) / d;\n"
+    "        high = (ball.xy * ball.z + s) / d;\n"
+    "    }\n"
+    "    vec2 at = mix(low, high, vec2(gl_VertexID & 1, gl_VertexID >> 1));\n"
+    "    vec2 pixel = projection.xy + projection.z * vec2(at.x, -at.y);\n"
+    "    gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);\n"
+    "}\n";
+
+/* What lies in all half-spaces of the cut is not there: a ray that would enter the sphere in
+ * it goes on to its end. */
+static const char sphere_fragment[] =
+    "#version 330 core\n" GLSL_CAMERA GLSL_CUTS "flat in vec4 ball;\n"
+    "flat in uint id;\n"
+    "out uint seen;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 s = (gl_FragCoord.xy - projection.xy) /\n"
+    "             vec2(projection.z, -projection.z);\n"
+    "    vec3 ray = projection.w == 0.0 ? vec3(s, 1.0) : vec3(0.0, 0.0, 1.0);\n"
+    "    vec3 from = projection.w == 0.0 ? vec3(0.0) : vec3(s, 0.0);\n"
+    "    vec3 to = ball.xyz - from;\n"
+    "    float a = dot(ray, ray);\n"
+    "    float t = dot(to, ray) / a;\n"
+    "    vec3 offset = to - t * ray;\n"
+    "    float h = ball.w * ball.w - dot(offset, offset);\n"
+    "    if (h < 0.0) {\n"
+    "        discard;\n"
+    "    }\n"
+    "    float depth = t - sqrt(h / a);\n"
+    "    float gap_end = 1e30;\n"
+    "    bool in_gap = cuts > 0;\n"
+    "    for (int k = 0; k < cuts; k++) {\n"
+    "        float slope = dot(cut[k].xyz, ray);\n"
+    "        float above = dot(cut[k].xyz, from + depth * ray) - cut[k].w;\n"
+    "        in_gap = in_gap && above > 0.0;\n"
+    "        gap_end = slope < 0.0 ? min(gap_end, depth - above / slope) : gap_end;\n"
+    "    }\n"
+    "    if (in_gap) {\n"
+    "        if (gap_end > t + sqrt(h / a)) {\n"
+    "            discard;\n"
+    "        }\n"
+    "        depth = gap_end;\n"
+    "    }\n"
+    "    gl_FragDepth = (depth - depth_range.x) / (depth_range.y - depth_range.x);\n"
+    "    seen = id;\n"
+    "}\n";
+
+/* A rod is a cylinder with a hemisphere at either end.  Distances are measured from the
+ * point of the ray nearest to the first end, as for spheres. */
+static const char rod_vertex[] =
+    "#version 330 core\n" GLSL_CAMERA "uniform samplerBuffer rods;\n"
+    "uniform vec2 size;\n"
+    "uniform mat3 rotation;\n"
+    "uniform vec3 translation;\n"
+    "uniform uint first;\n"
+    "layout(location = 0) in uint index;\n"
+    "flat out vec4 near_end;\n"
+    "flat out vec3 far_end;\n"
+    "flat out uint id;\n"
+    "vec3 projected_disc(vec3 ball, float r)\n" /* centre and radius, samples */
+    "{\n"
+    "    if (projection.w != 0.0) {\n"
+    "        return projection.z * vec3(ball.xy, r);\n"
+    "    }\n"
+    "    float d = ball.z * ball.z - r * r;\n"
+    "    vec2 s = r * sqrt(ball.xy * ball.xy + d);\n"
+    "    vec2 at = ball.xy / ball.z;\n"
+    "    vec2 reach = max((ball.xy * ball.z + s) / d - at,\n"
+    "                     at - (ball.xy * ball.z - s) / d);\n"
+    "    return projection.z * vec3(at, length(reach));\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec4 a = texelFetch(rods, 2 * int(index));\n"
+    "    vec4 b = texelFetch(rods, 2 * int(index) + 1);\n"
+    "    near_end = vec4(rotation * a.xyz + translation, a.w);\n"
+    "    far_end = rotation * b.xyz + translation;\n"
+    "    id = first + index;\n"
+    "    vec3 from = projected_disc(near_end.xyz, a.w);\n"
+    "    vec3 to = projected_disc(far_end, a.w);\n"
+    "    vec2 along = to.xy - from.xy;\n"
+    "    float size_along = length(along);\n"
+    "    along = size_along > 1e-3 ? along / size_along : vec2(1.0, 0.0);\n"
+    "    float half_width = 0.5 + max(from.z, to.z);\n"
+    "    vec2 at = (gl_VertexID >> 1) == 0 ? from.xy - half_width * along\n"
+    "                                      : to.xy + half_width * along;\n"
+    "    at += ((gl_VertexID & 1) == 0 ? -half_width : half_width) *\n"
+    "          vec2(-along.y, along.x);\n"
+    "    vec2 pixel = projection.xy + vec2(at.x, -at.y);\n"
+    "    gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);\n"
+    "}\n";
+
+static const char rod_fragment[] =
+    "#version 330 core\n" GLSL_CAMERA "flat in vec4 near_end;\n"
+    "flat in vec3 far_end;\n"
+    "flat in uint id;\n"
+    "out uint seen;\n"
+    "float cap(vec3 from, vec3 ray, float r)\n"
+    "{\n"
+    "    float a = dot(ray, ray);\n"
+    "    float t = dot(from, ray) / a;\n"
+    "    vec3 offset = from - t * ray;\n"
+    "    float h = r * r - dot(offset, offset);\n"
+    "    return h < 0.0 ? 1e30 : t - sqrt(h / a);\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 s = (gl_FragCoord.xy - projection.xy) /\n"
+    "             vec2(projection.z, -projection.z);\n"
+    "    bool flat_view = projection.w != 0.0;\n"
+    "    vec3 ray = flat_view ? vec3(0.0, 0.0, 1.0) : vec3(s, 1.0);\n"
+    "    vec3 from = flat_view ? vec3(s, 0.0) : vec3(0.0);\n"
+    "    float start = dot(near_end.xyz - from, ray) / dot(ray, ray);\n"
+    "    vec3 m = from + start * ray - near_end.xyz;\n"
+    "    vec3 along = far_end - near_end.xyz;\n"
+    "    float size = length(along);\n"
+    "    vec3 u = along / max(size, 1e-6);\n"
+    "    vec3 mp = m - dot(m, u) * u;\n"
+    "    vec3 dp = ray - dot(ray, u) * u;\n"
+    "    float a = dot(dp, dp);\n"
+    "    float b = dot(mp, dp);\n"
+    "    float h = b * b - a * (dot(mp, mp) - near_end.w * near_end.w);\n"
+    "    float t = 1e30;\n"
+    "    if (h >= 0.0 && a > 1e-12) {\n"
+    "        float side = (-b - sqrt(h)) / a;\n"
+    "        float axial = dot(m + side * ray, u);\n"
+    "        if (axial >= 0.0 && axial <= size) {\n"
+    "            t = side;\n"
+    "        }\n"
+    "    }\n"
+    "    t = min(t, cap(-m, ray, near_end.w));\n"
+    "    t = min(t, cap(along - m, ray, near_end.w));\n"
+    "    if (t > 1e29) {\n"
+    "        discard;\n"
+    "    }\n"
+    "    gl_FragDepth = (start + t - depth_range.x) / (depth_range.y - depth_range.x);\n"
+    "    seen = id;\n"
+    "}\n";
+
+/* Triangles of a surface. */
+static const char facet_vertex[] =
+    "#version 330 core\n" GLSL_CAMERA "uniform vec2 size;\n"
+    "uniform mat3 rotation;\n"
+    "uniform vec3 translation;\n"
+    "uniform uint first;\n"
+    "layout(location = 0) in vec3 position;\n"
+    "out float depth;\n"
+    "flat out uint id;\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 at = rotation * position + translation;\n"
+    "    float w = projection.w == 0.0 ? at.z : 1.0;\n"
+    "    vec2 pixel = projection.xy + projection.z * vec2(at.x, -at.y) / w;\n"
+    "    depth = at.z;\n"
+    "    id = first + uint(gl_VertexID / 3);\n"
+    "    gl_Position = vec4((2.0 * pixel / size - 1.0) * w, 0.0, w);\n"
+    "}\n";
+
+static const char facet_fragment[] = "#version 330 core\n" GLSL_CAMERA "in float depth;\n"
+                                     "flat in uint id;\n"
+                                     "out uint seen;\n"
+                                     "void main()\n"
+                                     "{\n"
+                                     "    gl_FragDepth = clamp((depth - depth_range.x) / "
+                                     "(depth_range.y - depth_range.x), 0.0, 1.0);\n"
+                                     "    seen = id;\n"
+                                     "}\n";
+
+/* Ribbons made on the processor: position in samples, and depth.  In perspective it is
+ * the inverse of the depth, which is linear along a straight line of the picture. */
+static const char edge_vertex[] =
+    "#version 330 core\n"
+    "uniform vec2 size;\n"
+    "layout(location = 0) in vec3 position;\n"
+    "out float along;\n"
+    "void main()\n"
+    "{\n"
+    "    along = position.z;\n"
+    "    gl_Position = vec4(2.0 * position.xy / size - 1.0, 0.0, 1.0);\n"
+    "}\n";
+
+static const char edge_fragment[] =
+    "#version 330 core\n" GLSL_CAMERA "in float along;\n"
+    "out uint seen;\n"
+    "void main()\n"
+    "{\n"
+    "    float depth = projection.w == 0.0 ? 1.0 / along : along;\n"
+    "    float share = (depth - depth_range.x) / (depth_range.y - depth_range.x);\n"
+    "    gl_FragDepth = clamp(share, 0.0, 1.0);\n"
+    "    seen = 0xfffffffeu;\n"
+    "}\n";
+
+#define WHOLE_SCREEN                                                                     \
+    "#version 330 core\n"                                                                \
+    "void main()\n"                                                                      \
+    "{\n"                                                                                \
+    "    vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : "        \
+    "-1.0);\n"                                                                           \
+    "    gl_Position = vec4(at, 0.0, 1.0);\n"                                            \
+    "}\n"
+
+/* Light: ambient light reduced by occlusion, a key light with soft shadows, a weak
+ * highlight.  The occlusion is the share of a spiral of samples that lie above the
+ * tangent plane and near the point.  Colours are linear.  The four samples of a pixel
+ * rotate the spiral by quarters of its step: the pixel has four times as many
+ * directions. */
+static const char shade_fragment[] =
+    "#version 330 core\n" GLSL_CAMERA GLSL_CUTS "uniform usampler2D seen;\n"
+    "uniform sampler2D depths;\n"
+    "uniform sampler2D shadows;\n"
+    "uniform samplerBuffer spheres;\n"
+    "uniform samplerBuffer rods;\n"
+    "uniform samplerBuffer facets;\n"
+    "uniform samplerBuffer colours;\n"
+    "uniform uint first_rod;\n"
+    "uniform uint first_facet;\n"
+    "uniform vec2 size;\n"
+    "uniform vec3 background;\n"
+    "uniform vec3 foreground;\n"
+    "uniform vec3 light;\n"
+    "uniform vec3 sky;\n"
+    "uniform float reach;\n"
+    "uniform float reach_limit;\n"
+    "uniform float cue;\n"
+    "uniform mat3 light_rotation;\n"
+    "uniform vec3 light_translation;\n"
+    "uniform vec4 light_projection;\n"
+    "uniform vec2 light_depth_range;\n"
+    "uniform float shadow_share;\n"
+    "uniform float detail;\n"
+    "out vec4 colour;\n"
+    "const int taps = 8;\n"
+    "const int shadow_taps = 4;\n"
+    "vec3 position_at(vec2 pixel, float depth)\n"
+    "{\n"
+    "    vec2 s = (pixel - projection.xy) / vec2(projection.z, -projection.z);\n"
+    "    float w = depth_range.x + depth * (depth_range.y - depth_range.x);\n"
+    "    return projection.w == 0.0 ? vec3(s * w, w) : vec3(s, w);\n"
+    "}\n"
+    "vec3 normal_at(vec3 p, uint id)\n"
+    "{\n"
+    "    if (id < first_rod) {\n"
+    "        vec4 ball = texelFetch(spheres, int(id));\n"
+    "        vec3 n = p - ball.xyz;\n"
+    "        float face = length(n) < 0.998 * ball.w ? 1e30 : 0.0;\n"
+    "        for (int k = 0; k < cuts && face > 0.0; k++) {\n" /* inside: on a cut */
+    "            float away = abs(dot(cut[k].xyz, p) - cut[k].w);\n"
+    "            n = away < face ? cut[k].xyz : n;\n"
+    "            face = min(face, away);\n"
+    "        }\n"
+    "        return normalize(n);\n"
+    "    }\n"
+    "    if (id < first_facet) {\n"
+    "        int k = 2 * int(id - first_rod);\n"
+    "        vec3 a = texelFetch(rods, k).xyz;\n"
+    "        vec3 u = texelFetch(rods, k + 1).xyz - a;\n"
+    "        float share = clamp(dot(p - a, u) / max(dot(u, u), 1e-12), 0.0, 1.0);\n"
+    "        return normalize(p - a - share * u);\n"
+    "    }\n"
+    "    int k = 3 * int(id - first_facet);\n"
+    "    vec3 a = texelFetch(facets, k).xyz;\n"
+    "    vec3 n = cross(texelFetch(facets, k + 1).xyz - a,\n"
+    "                   texelFetch(facets, k + 2).xyz - a);\n"
+    "    vec3 view = projection.w == 0.0 ? p : vec3(0.0, 0.0, 1.0);\n"
+    "    return normalize(dot(n, view) > 0.0 ? -n : n);\n"
+    "}\n"
+    "float ambient(vec3 p, vec3 n, float rotation, mat2 spin)\n"
+    "{\n"
+    "    float scale = projection.w == 0.0 ? projection.z / p.z : projection.z;\n"
+    "    float radius = min(reach * scale, reach_limit);\n"
+    "    float bound = radius / scale;\n"
+    "    float blocked = 0.0;\n"
+    "    for (int k = 0; k < taps; k++) {\n"
+    "        float u = (float(k) + 0.25 + 0.5 * rotation) / float(taps);\n"
+    "        float angle = 2.39996 * float(k);\n"
+    "        vec2 at = gl_FragCoord.xy +\n"
+    "                  (1.0 + radius * u * sqrt(u)) *\n"
+    "                  (spin * vec2(cos(angle), sin(angle)));\n"
+    "        at = clamp(at, vec2(0.5), size - 0.5);\n"
+    "        vec3 v = position_at(floor(at) + 0.5,\n"
+    "                             texelFetch(depths, ivec2(at), 0).r) - p;\n"
+    "        float closer = inversesqrt(dot(v, v) + 1e-12);\n"
+    "        float near = clamp(1.5 - 1.5 / (bound * closer), 0.0, 1.0);\n"
+    "        blocked += near * max(dot(v, n) * closer - 0.06, 0.0);\n"
+    "    }\n"
+    "    return clamp(1.0 - 2.6 * blocked / float(taps), 0.0, 1.0);\n"
+    "}\n"
+    "float unshadowed(vec3 p, vec3 n, float rotation, mat2 spin)\n"
+    "{\n"
+    "    vec3 q = light_rotation * (p + 0.04 * detail * n) + light_translation;\n"
+    "    vec2 centre = light_projection.xy + light_projection.z * vec2(q.x, -q.y);\n"
+    "    float depth = (q.z - light_depth_range.x) / (light_depth_range.y - "
+    "light_depth_range.x);\n"
+    "    float bias = 0.02 * detail / (light_depth_range.y - light_depth_range.x);\n"
+    "    float half_width = 0.11 * detail * light_projection.z;\n"
+    "    float unblocked = 0.0;\n"
+    "    for (int k = 0; k < shadow_taps; k++) {\n"
+    "        float angle = 2.39996 * float(k);\n"
+    "        float r = half_width * sqrt((float(k) + rotation) / float(shadow_taps));\n"
+    "        ivec2 at = ivec2(centre + r * (spin * vec2(cos(angle), sin(angle))));\n"
+    "        unblocked += texelFetch(shadows, at, 0).r + bias >= depth ? 1.0 : 0.0;\n"
+    "    }\n"
+    "    return unblocked / float(shadow_taps);\n"
+    "}\n";
+
+static const char shade_main[] =
+    "void main()\n"
+    "{\n"
+    "    uint id = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "    if (id == 0xffffffffu) {\n"
+    "        discard;\n"
+    "    }\n"
+    "    float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "    if (id == 0xfffffffeu) {\n"
+    "        float fade = cue * smoothstep(0.0, 1.0, depth);\n"
+    "        colour = vec4(mix(foreground, background, fade), 1.0);\n"
+    "        return;\n"
+    "    }\n"
+    "    vec3 p = position_at(gl_FragCoord.xy, depth);\n"
+    "    vec3 n = normal_at(p, id);\n"
+    "    vec3 albedo = pow(texelFetch(colours, int(id)).rgb, vec3(2.2));\n"
+    "    vec2 sub = mod(floor(gl_FragCoord.xy), 2.0);\n"
+    "    float rotation = 0.25 * (sub.x + 2.0 * sub.y) + 0.125;\n"
+    "    float c = cos(2.39996 * rotation);\n"
+    "    float d = sin(2.39996 * rotation);\n"
+    "    mat2 spin = mat2(c, d, -d, c);\n"
+    "    float unblocked = ambient(p, n, rotation, spin);\n"
+    "    float key = max(dot(n, light), 0.0);\n"
+    "    float direct = mix(1.0, unshadowed(p, n, rotation, spin), shadow_share);\n"
+    "    vec3 view = projection.w == 0.0 ? normalize(-p) : vec3(0.0, 0.0, -1.0);\n"
+    "    float gloss = pow(max(dot(n, normalize(light + view)), 0.0), 28.0);\n"
+    "    float dome = mix(0.55, 1.0, 0.5 + 0.5 * dot(n, sky));\n"
+    "    vec3 warm = vec3(1.04, 1.0, 0.95);\n"
+    "    vec3 cool = vec3(0.95, 0.99, 1.06);\n"
+    "    vec3 sum = albedo * (0.66 * dome * unblocked * cool +\n"
+    "                         0.86 * key * direct * warm);\n"
+    "    sum += 0.09 * gloss * direct * unblocked;\n"
+    "    colour = vec4(sum, 1.0);\n"
+    "}\n";
+
+/* Mean of the samples with a tent filter two pixels wide: anti-aliased box edges. */
+static const char resolve_fragment[] =
+    "#version 330 core\n"
+    "uniform sampler2D samples;\n"
+    "uniform ivec2 inset;\n"
+    "out vec4 colour;\n"
+    "vec3 encode(vec3 x)\n"
+    "{\n"
+    "    x = clamp(x, 0.0, 1.0);\n"
+    "    return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055,\n"
+    "               step(vec3(0.0031308), x));\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    ivec2 at = 2 * ivec2(gl_FragCoord.xy) + inset - 1;\n"
+    "    const vec4 tent = vec4(0.125, 0.375, 0.375, 0.125);\n"
+    "    vec4 sum = vec4(0.0);\n"
+    "    for (int k = 0; k < 16; k++) {\n"
+    "        vec4 one = texelFetch(samples, at + ivec2(k & 3, k >> 2), 0);\n"
+    "        sum += tent[k & 3] * tent[k >> 2] * vec4(min(one.rgb, 1.0), one.a);\n"
+    "    }\n"
+    "    vec3 rgb = encode(sum.rgb / max(sum.a, 1e-6)) * sum.a;\n"
+    "    colour = vec4(rgb, sum.a);\n"
+    "}\n";
+
+static const char wall_vertex[] =
+    "#version 330 core\n" GLSL_CAMERA "uniform vec2 size;\n"
+    "layout(location = 0) in vec3 position;\n"
+    "layout(location = 1) in vec3 normal;\n"
+    "layout(location = 2) in float opacity;\n"
+    "uniform mat3 rotation;\n"
+    "uniform vec3 translation;\n"
+    "out vec3 at;\n"
+    "out vec3 across;\n"
+    "out float alpha;\n"
+    "void main()\n"
+    "{\n"
+    "    at = rotation * position + translation;\n"
+    "    across = rotation * normal;\n"
+    "    alpha = opacity;\n"
+    "    float w = projection.w == 0.0 ? at.z : 1.0;\n"
+    "    vec2 pixel = projection.xy + projection.z * vec2(at.x, -at.y) / w;\n"
+    "    gl_Position = vec4((2.0 * pixel / size - 1.0) * w, 0.0, w);\n"
+    "}\n";
+
+/* As of glass, the opacity grows towards grazing angles.  Behind what is drawn, and in a cut,
+ * there is nothing. */
+static const char wall_fragment[] =
+    "#version 330 core\n" GLSL_CAMERA GLSL_CUTS "uniform sampler2D depths;\n"
+    "uniform vec3 tint;\n"
+    "in vec3 at;\n"
+    "in vec3 across;\n"
+    "in float alpha;\n"
+    "out vec4 colour;\n"
+    "void main()\n"
+    "{\n"
+    "    float depth = (at.z - depth_range.x) / (depth_range.y - depth_range.x);\n"
+    "    float seen = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "    bool in_cut = cuts > 0;\n"
+    "    for (int k = 0; k < cuts; k++) {\n"
+    "        in_cut = in_cut && dot(cut[k].xyz, at) > cut[k].w;\n"
+    "    }\n"
+    "    if (in_cut || (seen < 1.0 && depth > seen)) {\n"
+    "        discard;\n"
+    "    }\n"
+    "    vec3 view = projection.w == 0.0 ? normalize(at) : vec3(0.0, 0.0, 1.0);\n"
+    "    float graze = 1.0 - abs(dot(normalize(across), view));\n"
+    "    float a = mix(alpha, 0.5, graze * graze * graze);\n"
+    "    colour = vec4(a * tint, a);\n"
+    "}\n";
 
 enum {
     TILE_WIDTH = 2048,   /* widest tile, pixels */
@@ -41,6 +486,17 @@ enum program {
     PROGRAM_RESOLVE,
     PROGRAM_WALL
 };
+
+static const struct shader shaders[PROGRAMS] = {
+    [PROGRAM_SPHERE] = {sphere_vertex, sphere_fragment, ""},
+    [PROGRAM_ROD] = {rod_vertex, rod_fragment, ""},
+    [PROGRAM_FACET] = {facet_vertex, facet_fragment, ""},
+    [PROGRAM_EDGE] = {edge_vertex, edge_fragment, ""},
+    [PROGRAM_SHADE] = {WHOLE_SCREEN, shade_fragment, shade_main},
+    [PROGRAM_RESOLVE] = {WHOLE_SCREEN, resolve_fragment, ""},
+    [PROGRAM_WALL] = {wall_vertex, wall_fragment, ""},
+};
+
 enum texture {
     TEXTURE_SEEN,
     TEXTURE_DEPTH,
@@ -674,8 +1130,8 @@ static bool compile(const struct gb_gl *gl, GLuint program, GLenum stage,
     return done != 0;
 }
 
-static bool build(const struct gb_gl *gl, GLuint *program,
-                  const struct gb_shaders_text *text, struct gb_error *err)
+static bool build(const struct gb_gl *gl, GLuint *program, const struct shader *text,
+                  struct gb_error *err)
 {
     GLint done = 0;
     *program = gl->CreateProgram();
@@ -690,9 +1146,6 @@ static bool build(const struct gb_gl *gl, GLuint *program,
 
 bool gb_renderer_open(struct gb_renderer **out, struct gb_error *err)
 {
-    static const struct gb_shaders_text *const text[PROGRAMS] = {
-        &gb_shaders_sphere, &gb_shaders_rod,     &gb_shaders_facet, &gb_shaders_edge,
-        &gb_shaders_shade,  &gb_shaders_resolve, &gb_shaders_wall};
     *out = NULL;
     struct gb_renderer *renderer = gb_alloc_array(1, sizeof *renderer, err);
     if (renderer == NULL) {
@@ -703,7 +1156,7 @@ bool gb_renderer_open(struct gb_renderer **out, struct gb_error *err)
     }
     const struct gb_gl *gl = gb_gl_context_functions(renderer->context);
     for (int k = 0; k < PROGRAMS; k++) {
-        if (!build(gl, &renderer->program[k], text[k], err)) {
+        if (!build(gl, &renderer->program[k], &shaders[k], err)) {
             goto fail;
         }
     }

@@ -1,6 +1,6 @@
 /* Draws one curve: its markers, its line with band, bars, steps or arrows; and a thinned copy
  * of a curve with more points than a page can show. */
-#include "draw/figure/figure_curve.h"
+#include "draw/figure_curve.h"
 
 #include <cairo.h>
 #include <glib.h>
@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "draw/figure/figure.h"
+#include "draw/figure.h"
 
 /* Colours and markers of the styles; lengths in points. */
 

@@ -1,14 +1,36 @@
-#ifndef GB_DRAW_FIGURE_FIGURE_H
-#define GB_DRAW_FIGURE_FIGURE_H
+#ifndef GB_DRAW_FIGURE_H
+#define GB_DRAW_FIGURE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "draw/figure/figure_axis.h"
-#include "draw/image/image.h"
-#include "draw/image/png.h"
+#include "draw/image.h"
 #include "greenbody/status.h"
+
+enum { GB_FIGURE_AXIS_TICKS = 16, GB_FIGURE_AXIS_MINOR = 96 };
+
+/* Map from values to coordinates (points) along one axis, with its ticks. */
+struct gb_figure_axis_scale {
+    bool log;
+    double low, high; /* values at the two ends */
+    double from, to;  /* their coordinates */
+    int power;        /* ticks are labelled in units of 10^power */
+    int ticks, minors;
+    double tick[GB_FIGURE_AXIS_TICKS];
+    char label[GB_FIGURE_AXIS_TICKS][40]; /* Pango markup; "" between labelled decades */
+    double minor[GB_FIGURE_AXIS_MINOR];
+};
+
+enum gb_figure_axis_kind { GB_FIGURE_AXIS_LINEAR, GB_FIGURE_AXIS_LOG };
+
+/* Ends and ticks for values from low to high (low > 0 when logarithmic), about `wanted` of them.
+ * exact keeps the ends as they are.  Ends that are not finite, equal or reversed are
+ * replaced by valid ones. */
+void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, enum gb_figure_axis_kind kind,
+                        double low, double high, int wanted, const bool exact[2]);
+
+double gb_figure_axis_position(const struct gb_figure_axis_scale *scale, double value);
 
 /* Colours of the curves of figures, sRGB: sky blue, orange, green, purple, red, blue, the
  * hues of the workbench (tui/term/term.c) in its order.  Two of them, or one and
@@ -130,7 +152,7 @@ bool gb_figure_render(struct gb_image **out, const struct gb_figure *figure, int
 /* Writers of a figure.  Width and height are pixels of the PNG; vector formats have its
  * shape.  texts: chunks of the PNG.  Errors: as above, and as gb_file_replace. */
 typedef bool gb_figure_writer(const struct gb_figure *figure, int width, int height,
-                              const struct gb_png_text *texts, int text_count,
+                              const struct gb_image_text *texts, int text_count,
                               const char *path, struct gb_error *err);
 gb_figure_writer gb_figure_write_png;
 gb_figure_writer gb_figure_write_svg;

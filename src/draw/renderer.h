@@ -1,9 +1,9 @@
-#ifndef GB_DRAW_GL_RENDERER_H
-#define GB_DRAW_GL_RENDERER_H
+#ifndef GB_DRAW_RENDERER_H
+#define GB_DRAW_RENDERER_H
 
 #include <stdbool.h>
 
-#include "draw/image/image.h"
+#include "draw/image.h"
 #include "draw/scene.h"
 #include "greenbody/status.h"
 

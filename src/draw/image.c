@@ -1,8 +1,11 @@
-/* PNG files: single images, animations (APNG), and their text chunks. */
-#include "draw/image/png.h"
+/* Images: pixels in memory, the sizes that users give (pixels, or a width in print), scales of
+ * colours, and PNG files: single images, animations (APNG), and their text chunks. */
+
+#include "draw/image.h"
 
 #include <errno.h>
 #include <glib.h>
+#include <math.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -12,7 +15,310 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "draw/image/image.h"
+#include "base/units.h"
+
+static bool side_fits(int side)
+{
+    return side >= GB_IMAGE_MIN && side <= GB_IMAGE_MAX;
+}
+
+bool gb_image_create(struct gb_image **out, int width, int height, struct gb_error *err)
+{
+    *out = NULL;
+    if (!side_fits(width) || !side_fits(height)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "an image of %d x %d pixels: %d to %d a side are accepted",
+                            width, height, GB_IMAGE_MIN, GB_IMAGE_MAX);
+    }
+    struct gb_image *image = gb_alloc_array(1, sizeof *image, err);
+    if (image == NULL) {
+        return false;
+    }
+    image->width = width;
+    image->height = height;
+    image->rgba = gb_alloc_array((size_t)width * (size_t)height, 4, err);
+    if (image->rgba == NULL) {
+        gb_image_destroy(image);
+        return false;
+    }
+    *out = image;
+    return true;
+}
+
+void gb_image_destroy(struct gb_image *image)
+{
+    if (image == NULL) {
+        return;
+    }
+    gb_alloc_free(image->rgba);
+    gb_alloc_free(image);
+}
+
+void gb_image_swap_red_blue(struct gb_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++) {
+        uint8_t *pixel = &image->rgba[4 * i];
+        const uint8_t red = pixel[0];
+        pixel[0] = pixel[2];
+        pixel[2] = red;
+    }
+}
+
+/* Up to five digits; moves *text behind them. */
+static bool read_side(const char **text, int *side)
+{
+    int value = 0;
+    int digits = 0;
+    while (**text >= '0' && **text <= '9' && digits < 6) {
+        value = 10 * value + (**text - '0');
+        (*text)++;
+        digits++;
+    }
+    *side = value;
+    return digits > 0 && digits < 6 && side_fits(value);
+}
+
+bool gb_image_parse_size(const char *text, int *width, int *height, struct gb_error *err)
+{
+    const char *at = text;
+    int w = 0;
+    int h = 0;
+    if (!read_side(&at, &w) || *at++ != 'x' || !read_side(&at, &h) || *at != '\0') {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--size %s: WIDTHxHEIGHT in pixels is accepted, %d to %d a side", text,
+            GB_IMAGE_MIN, GB_IMAGE_MAX);
+    }
+    *width = w;
+    *height = h;
+    return true;
+}
+
+/* Inches of the units that widths are given in. */
+static const struct {
+    const char *name;
+    double inches;
+} units[] = {{"cm", 1.0 / 2.54}, {"mm", 1.0 / 25.4}, {"in", 1.0}};
+
+const struct gb_image_journal gb_image_journals[] = {
+    {"elsevier", 90.0, 140.0, 190.0, "Elsevier, Artwork sizing"},
+    {"aps", 86.0, 140.0, 178.0, "APS, Style and Notation Guide; REVTeX page"},
+    {"aip", 85.0, 0.0, 170.0, "AIP Publishing, Preparing your manuscript: graphics"},
+    {"springer", 84.0, 0.0, 174.0, "Springer, Artwork guidelines, large journals"},
+    {"wiley", 80.0, 0.0, 180.0, "Wiley, Guidelines for figure preparation"},
+    {"nature", 89.0, 120.0, 183.0, "Nature, Final submission"},
+    {"acs", 82.5, 0.0, 177.8, "ACS, Preparing graphics"},
+    {"rsc", 83.0, 0.0, 171.0, "RSC, Prepare your article: graphics"},
+    {.name = NULL},
+};
+
+/* Inches of a column of a journal; NaN: not a name of one, or the journal has none. */
+static double column_inches(const char *text)
+{
+    for (const struct gb_image_journal *row = gb_image_journals; row->name != NULL;
+         row++) {
+        const size_t length = strlen(row->name);
+        if (strncmp(text, row->name, length) == 0) {
+            const char *columns = text + length;
+            const double mm = *columns == '\0'               ? row->single_mm
+                              : strcmp(columns, "-1.5") == 0 ? row->middle_mm
+                              : strcmp(columns, "-2") == 0   ? row->double_mm
+                                                             : 0.0;
+            return mm > 0.0 ? mm / 25.4 : (double)NAN;
+        }
+    }
+    return NAN;
+}
+
+static double inches_of(const char *text)
+{
+    const char *end = NULL;
+    double value = 0.0;
+    if (gb_units_number(text, &end, &value)) {
+        end += strspn(end, " ");
+        for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
+            if (strcmp(end, units[i].name) == 0) {
+                return value * units[i].inches;
+            }
+        }
+    }
+    return column_inches(text);
+}
+
+bool gb_image_parse_print(const char *width, int per_inch, struct gb_image_print *size,
+                          struct gb_error *err)
+{
+    const double inches = inches_of(width);
+    if (!(inches >= 0.999 && inches <= 20.0)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--width %.80s: must be between 2.54 and 50 cm, as in 8cm, 80mm, 3.3in, or a "
+            "column of a journal that plot --help lists, as elsevier, elsevier-1.5, "
+            "elsevier-2",
+            width);
+    }
+    if (per_inch < 100 || per_inch > 1200) {
+        return gb_error_set(err, GB_ERR_INPUT, "--dpi %d: must be between 100 and 1200",
+                            per_inch);
+    }
+    const double pixels = round(inches * per_inch);
+    if (pixels > GB_IMAGE_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--width %.80s --dpi %d: %g pixels; expected %d", width,
+                            per_inch, pixels, GB_IMAGE_MAX);
+    }
+    *size = (struct gb_image_print){(int)pixels, (int)round(0.75 * pixels), per_inch};
+    return true;
+}
+
+enum { LAST = GB_IMAGE_MAP_ANCHORS - 1 };
+
+static const struct gb_image_map maps[] = {
+    {"viridis",
+     "dark blue, green, yellow",
+     false,
+     0.06,
+     {{68, 1, 84},
+      {72, 26, 108},
+      {71, 47, 125},
+      {65, 68, 135},
+      {57, 86, 140},
+      {49, 104, 142},
+      {42, 120, 142},
+      {35, 136, 142},
+      {31, 152, 139},
+      {34, 168, 132},
+      {53, 183, 121},
+      {84, 197, 104},
+      {122, 209, 81},
+      {165, 219, 54},
+      {210, 226, 27},
+      {234, 229, 26},
+      {253, 231, 37}}},
+    {"fire",
+     "violet, red, light yellow",
+     false,
+     0.0,
+     {{60, 31, 79},
+      {85, 32, 92},
+      {112, 32, 100},
+      {138, 30, 104},
+      {163, 30, 105},
+      {186, 35, 103},
+      {205, 46, 99},
+      {221, 62, 94},
+      {234, 80, 89},
+      {244, 100, 86},
+      {250, 121, 85},
+      {254, 142, 87},
+      {255, 162, 95},
+      {255, 182, 108},
+      {255, 201, 126},
+      {254, 220, 150},
+      {255, 237, 179}}},
+    {"blue-yellow",
+     "blue, grey, yellow, for all kinds of colour vision",
+     false,
+     0.0,
+     {{1, 51, 110},
+      {33, 60, 113},
+      {52, 70, 116},
+      {68, 80, 119},
+      {82, 90, 122},
+      {96, 101, 125},
+      {109, 112, 127},
+      {122, 123, 130},
+      {135, 134, 132},
+      {150, 144, 133},
+      {164, 154, 134},
+      {179, 164, 135},
+      {193, 174, 135},
+      {208, 185, 136},
+      {222, 196, 136},
+      {237, 206, 136},
+      {251, 217, 136}}},
+    {"grey",
+     "dark to light grey",
+     false,
+     0.0,
+     {{53, 53, 53},
+      {63, 63, 63},
+      {74, 74, 74},
+      {84, 84, 84},
+      {95, 95, 95},
+      {107, 107, 107},
+      {118, 118, 118},
+      {130, 130, 130},
+      {142, 142, 142},
+      {154, 154, 154},
+      {166, 166, 166},
+      {179, 179, 179},
+      {191, 191, 191},
+      {204, 204, 204},
+      {217, 217, 217},
+      {230, 230, 230},
+      {243, 243, 243}}},
+    {"diverging",
+     "blue, light grey, brown; around 0 where the values have both signs",
+     true,
+     0.0,
+     {{19, 83, 166},
+      {65, 100, 175},
+      {95, 118, 184},
+      {121, 137, 193},
+      {145, 156, 202},
+      {169, 176, 211},
+      {192, 196, 220},
+      {215, 217, 229},
+      {238, 238, 238},
+      {230, 214, 209},
+      {222, 190, 181},
+      {212, 167, 154},
+      {201, 144, 128},
+      {189, 122, 102},
+      {177, 99, 77},
+      {163, 77, 53},
+      {148, 53, 30}}},
+    {0},
+};
+
+const struct gb_image_map *gb_image_maps(void)
+{
+    return maps;
+}
+
+const struct gb_image_map *gb_image_find(const char *name)
+{
+    for (const struct gb_image_map *map = maps; map->name != NULL; map++) {
+        if (strcmp(map->name, name) == 0) {
+            return map;
+        }
+    }
+    return NULL;
+}
+
+static void interpolate(const struct gb_image_map *map, double x, uint8_t rgb[3])
+{
+    const double at = fmin(fmax(x, 0.0), 1.0) * LAST;
+    const int k = at >= LAST ? LAST - 1 : (int)at;
+    const double t = at - k;
+    for (int c = 0; c < 3; c++) {
+        const int low = map->anchor[k][c];
+        rgb[c] = (uint8_t)lrint(low + t * (map->anchor[k + 1][c] - low));
+    }
+}
+
+void gb_image_map_colour(const struct gb_image_map *map, double x, uint8_t rgb[3])
+{
+    const struct gb_image_map *used = map != NULL ? map : &maps[0];
+    interpolate(used, used->start + (1.0 - used->start) * fmin(fmax(x, 0.0), 1.0), rgb);
+}
+
+void gb_image_viridis(double x, uint8_t rgb[3])
+{
+    interpolate(&maps[0], x, rgb);
+}
 
 enum { TEXTS_MAX = 16, LEVEL = 5 /* of zlib: half the time of 6 for 2 % more bytes */ };
 
@@ -52,7 +358,7 @@ static void on_flush(png_structp png)
 }
 
 static void put_header(struct writer *writer, const struct gb_image *image,
-                       enum gb_png_alpha alpha, const struct gb_png_text *texts,
+                       enum gb_image_alpha alpha, const struct gb_image_text *texts,
                        int text_count)
 {
     png_text text[TEXTS_MAX];
@@ -65,7 +371,7 @@ static void put_header(struct writer *writer, const struct gb_image *image,
     }
     png_set_IHDR(
         writer->png, writer->info, (png_uint_32)image->width, (png_uint_32)image->height,
-        8, alpha == GB_PNG_OPAQUE ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
+        8, alpha == GB_IMAGE_OPAQUE ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
         PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(writer->png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(writer->png, writer->info, text, text_count);
@@ -79,10 +385,10 @@ static void put_header(struct writer *writer, const struct gb_image *image,
 }
 
 /* PNG stores colours that are not multiplied by alpha. */
-static void pack_row(const uint8_t *from, int width, enum gb_png_alpha channel,
+static void pack_row(const uint8_t *from, int width, enum gb_image_alpha channel,
                      uint8_t *to)
 {
-    const bool opaque = channel == GB_PNG_OPAQUE;
+    const bool opaque = channel == GB_IMAGE_OPAQUE;
     for (int x = 0; x < width; x++, from += 4) {
         const unsigned alpha = from[3];
         for (int k = 0; k < 3; k++) {
@@ -96,7 +402,7 @@ static void pack_row(const uint8_t *from, int width, enum gb_png_alpha channel,
 }
 
 static bool encode(struct writer *writer, const struct gb_image *image,
-                   enum gb_png_alpha alpha, const struct gb_png_text *texts,
+                   enum gb_image_alpha alpha, const struct gb_image_text *texts,
                    int text_count)
 {
     if (setjmp(png_jmpbuf(writer->png)) != 0) {
@@ -114,8 +420,8 @@ static bool encode(struct writer *writer, const struct gb_image *image,
 }
 
 /* Encodes an image into memory, which belongs to the caller (free). */
-static bool encode_image(const struct gb_image *image, enum gb_png_alpha alpha,
-                         const struct gb_png_text *texts, int text_count, char **memory,
+static bool encode_image(const struct gb_image *image, enum gb_image_alpha alpha,
+                         const struct gb_image_text *texts, int text_count, char **memory,
                          size_t *size, struct gb_error *err)
 {
     struct writer writer = {.png = NULL};
@@ -145,9 +451,9 @@ static bool encode_image(const struct gb_image *image, enum gb_png_alpha alpha,
                                 writer.reason[0] != '\0' ? writer.reason : "no memory");
 }
 
-bool gb_png_write(const struct gb_image *image, enum gb_png_alpha alpha,
-                  const struct gb_png_text *texts, int text_count, const char *path,
-                  struct gb_error *err)
+bool gb_image_write(const struct gb_image *image, enum gb_image_alpha alpha,
+                    const struct gb_image_text *texts, int text_count, const char *path,
+                    struct gb_error *err)
 {
     char *memory = NULL;
     size_t size = 0;
@@ -211,8 +517,8 @@ static FILE *open_picture(const char *path, struct gb_error *err)
     return stream;
 }
 
-bool gb_png_read_text(const char *path, const char *key, char **value,
-                      struct gb_error *err)
+bool gb_image_read_text(const char *path, const char *key, char **value,
+                        struct gb_error *err)
 {
     struct writer silent = {.png = NULL}; /* for on_error */
     struct reader reader = {.file = open_picture(path, err)};
@@ -234,10 +540,10 @@ bool gb_png_read_text(const char *path, const char *key, char **value,
 
 /* PNG specification, third edition: acTL before the first IDAT, fcTL before each frame,
  * and fdAT, which is IDAT after a number; fcTL and fdAT are numbered together. */
-struct gb_png_animation {
+struct gb_image_animation {
     int count, added;
-    enum gb_png_alpha alpha;
-    const struct gb_png_text *texts;
+    enum gb_image_alpha alpha;
+    const struct gb_image_text *texts;
     int text_count;
     struct gb_image *before;
     uint32_t number;
@@ -269,12 +575,13 @@ static bool no_memory(struct gb_error *err)
     return gb_error_set(err, GB_ERR_MEMORY, "no memory for the frames of a picture");
 }
 
-bool gb_png_animation_create(struct gb_png_animation **out, int count,
-                             enum gb_png_alpha alpha, const struct gb_png_text *texts,
-                             int text_count, struct gb_error *err)
+bool gb_image_animation_create(struct gb_image_animation **out, int count,
+                               enum gb_image_alpha alpha,
+                               const struct gb_image_text *texts, int text_count,
+                               struct gb_error *err)
 {
     *out = NULL;
-    struct gb_png_animation *apng = gb_alloc_array(1, sizeof *apng, err);
+    struct gb_image_animation *apng = gb_alloc_array(1, sizeof *apng, err);
     if (apng == NULL) {
         return false;
     }
@@ -286,7 +593,7 @@ bool gb_png_animation_create(struct gb_png_animation **out, int count,
     apng->png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, apng_on_error, on_warning);
     if (apng->stream == NULL || apng->png == NULL) {
-        gb_png_animation_destroy(apng);
+        gb_image_animation_destroy(apng);
         return no_memory(err);
     }
     png_set_write_fn(apng->png, apng->stream, apng_on_data, on_flush);
@@ -294,7 +601,7 @@ bool gb_png_animation_create(struct gb_png_animation **out, int count,
     return true;
 }
 
-void gb_png_animation_destroy(struct gb_png_animation *apng)
+void gb_image_animation_destroy(struct gb_image_animation *apng)
 {
     if (apng == NULL) {
         return;
@@ -323,7 +630,7 @@ static uint32_t get_number(const uint8_t *from)
            from[3];
 }
 
-static bool put_chunk(struct gb_png_animation *apng, const char *name,
+static bool put_chunk(struct gb_image_animation *apng, const char *name,
                       const uint8_t *data, size_t size, struct gb_error *err)
 {
     if (setjmp(png_jmpbuf(apng->png)) != 0) {
@@ -333,7 +640,7 @@ static bool put_chunk(struct gb_png_animation *apng, const char *name,
     return true;
 }
 
-static bool put_control(struct gb_png_animation *apng, const struct area *area,
+static bool put_control(struct gb_image_animation *apng, const struct area *area,
                         int milliseconds, struct gb_error *err)
 {
     uint8_t data[26] = {0}; /* the last two: no disposal, no blending */
@@ -349,7 +656,7 @@ static bool put_control(struct gb_png_animation *apng, const struct area *area,
     return put_chunk(apng, "fcTL", data, sizeof data, err);
 }
 
-static bool put_data(struct gb_png_animation *apng, const uint8_t *data, size_t size,
+static bool put_data(struct gb_image_animation *apng, const uint8_t *data, size_t size,
                      struct gb_error *err)
 {
     if (apng->added == 0) {
@@ -367,7 +674,7 @@ static bool put_data(struct gb_png_animation *apng, const uint8_t *data, size_t 
 }
 
 /* Signature and header of the file, and acTL. */
-static bool put_head(struct gb_png_animation *apng, const uint8_t *png, size_t size,
+static bool put_head(struct gb_image_animation *apng, const uint8_t *png, size_t size,
                      struct gb_error *err)
 {
     uint8_t data[8] = {0}; /* repeats: 0 is unlimited */
@@ -377,7 +684,7 @@ static bool put_head(struct gb_png_animation *apng, const uint8_t *png, size_t s
 }
 
 /* The chunks of a PNG as those of one frame. */
-static bool put_frame(struct gb_png_animation *apng, const uint8_t *png, size_t size,
+static bool put_frame(struct gb_image_animation *apng, const uint8_t *png, size_t size,
                       const struct area *area, int milliseconds, struct gb_error *err)
 {
     bool started = false;
@@ -440,7 +747,7 @@ static bool cut_out(struct gb_image **out, const struct gb_image *image,
 }
 
 /* Keeps the frame for the comparison with the next. */
-static bool keep_frame(struct gb_png_animation *apng, const struct gb_image *image,
+static bool keep_frame(struct gb_image_animation *apng, const struct gb_image *image,
                        struct gb_error *err)
 {
     if (apng->before == NULL &&
@@ -452,8 +759,8 @@ static bool keep_frame(struct gb_png_animation *apng, const struct gb_image *ima
     return true;
 }
 
-bool gb_png_animation_add(struct gb_png_animation *apng, const struct gb_image *image,
-                          int milliseconds, struct gb_error *err)
+bool gb_image_animation_add(struct gb_image_animation *apng, const struct gb_image *image,
+                            int milliseconds, struct gb_error *err)
 {
     struct area area = {0, 0, image->width, image->height};
     struct gb_image *part = NULL;
@@ -474,8 +781,8 @@ bool gb_png_animation_add(struct gb_png_animation *apng, const struct gb_image *
     return done;
 }
 
-bool gb_png_animation_write(struct gb_png_animation *apng, const char *path,
-                            struct gb_error *err)
+bool gb_image_animation_write(struct gb_image_animation *apng, const char *path,
+                              struct gb_error *err)
 {
     return put_chunk(apng, "IEND", NULL, 0, err) &&
            (fflush(apng->stream) == 0 || no_memory(err)) &&

@@ -1,5 +1,5 @@
-#ifndef GB_DRAW_IMAGE_TEXT_H
-#define GB_DRAW_IMAGE_TEXT_H
+#ifndef GB_DRAW_TEXT_H
+#define GB_DRAW_TEXT_H
 
 #include <cairo.h>
 #include <pango/pangocairo.h>

@@ -1,4 +1,4 @@
-#include "draw/image/text.h"
+#include "draw/text.h"
 
 #include <fcntl.h>
 #include <fontconfig/fontconfig.h>

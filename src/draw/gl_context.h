@@ -1,5 +1,5 @@
-#ifndef GB_DRAW_GL_GL_CONTEXT_H
-#define GB_DRAW_GL_GL_CONTEXT_H
+#ifndef GB_DRAW_GL_CONTEXT_H
+#define GB_DRAW_GL_CONTEXT_H
 
 #include <GL/glcorearb.h>
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "draw/gl/hidden.h"
+#include "draw/hidden.h"
 
 #include <math.h>
 #include <string.h>

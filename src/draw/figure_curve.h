@@ -1,9 +1,9 @@
-#ifndef GB_DRAW_FIGURE_FIGURE_CURVE_H
-#define GB_DRAW_FIGURE_FIGURE_CURVE_H
+#ifndef GB_DRAW_FIGURE_CURVE_H
+#define GB_DRAW_FIGURE_CURVE_H
 
 #include <cairo.h>
 
-#include "draw/figure/figure.h"
+#include "draw/figure.h"
 
 /* sRGB, 0 to 1, of a style. */
 void gb_figure_curve_colour(int style, double rgb[3]);

@@ -1,7 +1,36 @@
-#ifndef GB_DRAW_FIGURE_FIGURE_PAGE_H
-#define GB_DRAW_FIGURE_FIGURE_PAGE_H
+#ifndef GB_DRAW_FIGURE_PAGE_H
+#define GB_DRAW_FIGURE_PAGE_H
 
-#include "draw/figure/figure_labels.h"
+#include <stdbool.h>
+
+#include "draw/figure.h"
+#include "draw/text.h"
+
+/* Font size of labels, points of the page. */
+#define GB_FIGURE_PAGE_LABELS_SIZE 8.6
+
+enum { GB_FIGURE_PAGE_LABELS_COLUMNS = 4 };
+
+/* Labels of the curves: beside the lines where all of them have space, a legend for the
+ * rest, in a free part of the frame or right of it. */
+struct gb_figure_labels {
+    double (*at)[4];  /* box of each label; right end 0: in the legend */
+    double legend[4]; /* all 0: none */
+    bool outside;     /* no space in the frame: legend[2], [3] are width and height */
+    int rows;         /* of each column of the legend */
+    double
+        left[GB_FIGURE_PAGE_LABELS_COLUMNS + 1]; /* of the columns in it, and its width */
+};
+
+void gb_figure_page_draw_labels(const struct gb_figure_labels *labels,
+                                const struct gb_figure *figure,
+                                const struct gb_text *text);
+
+void gb_figure_page_annotate(const struct gb_figure *figure,
+                             const struct gb_figure_layout *layout,
+                             const struct gb_text *text);
+
+void gb_figure_page_finish_labels(struct gb_figure_labels *labels); /* zeroed is fine */
 
 /* Layout of a figure on a page; lengths in points. */
 struct gb_figure_page {
@@ -22,7 +51,7 @@ struct gb_figure_page {
 #define GB_FIGURE_PAGE_CAPTION 8.0
 /* Letters of text that is reduced to fit are not smaller. */
 #define GB_FIGURE_PAGE_LEAST                                                             \
-    (GB_IMAGE_PRINT_TEXT_LEAST / GB_IMAGE_PRINT_TEXT * GB_FIGURE_LABELS_SIZE)
+    (GB_IMAGE_PRINT_TEXT_LEAST / GB_IMAGE_PRINT_TEXT * GB_FIGURE_PAGE_LABELS_SIZE)
 #define GB_FIGURE_PAGE_GAP         4.0
 #define GB_FIGURE_PAGE_NAME_MARGIN 4.0 /* of a name from the edge of the page */
 #define GB_FIGURE_PAGE_BAR         62.0 /* width right of the frame that the bar of a map takes */

@@ -1,5 +1,5 @@
 /* The rose of forces against functions of direction that it can hold exactly. */
-#include "measure/harmonics.h"
+#include "draw/rose.h"
 
 #include <glib.h>
 #include <gsl/gsl_errno.h>
@@ -35,7 +35,7 @@ static double known(const double *n)
 
 static void test_exact(void)
 {
-    struct gb_harmonics rose;
+    struct gb_rose rose;
     struct gb_error err = {0};
     fill_axes();
     double sum = 0.0;
@@ -43,21 +43,19 @@ static void test_exact(void)
         value[i] = known(&axis[3 * i]);
         sum += value[i];
     }
-    g_assert_true(gb_harmonics_fit(&rose, 3, axis, value, COUNT, &err));
+    g_assert_true(gb_rose_fit(&rose, 3, axis, value, COUNT, &err));
     g_assert_cmpfloat_with_epsilon(rose.mean, sum / COUNT, 1e-12);
     const double away[][3] = {{1, 2, 3}, {0, 0, 1}, {-2, 0.1, 0}, {1, -1, 0.5}};
     for (size_t k = 0; k < G_N_ELEMENTS(away); k++) {
         const double back[3] = {-away[k][0], -away[k][1], -away[k][2]};
-        g_assert_cmpfloat_with_epsilon(gb_harmonics_at(&rose, away[k]), known(away[k]),
-                                       1e-9);
-        g_assert_cmpfloat_with_epsilon(gb_harmonics_at(&rose, back), known(away[k]),
-                                       1e-9);
+        g_assert_cmpfloat_with_epsilon(gb_rose_at(&rose, away[k]), known(away[k]), 1e-9);
+        g_assert_cmpfloat_with_epsilon(gb_rose_at(&rose, back), known(away[k]), 1e-9);
     }
 }
 
 static void test_planar(void)
 {
-    struct gb_harmonics rose;
+    struct gb_rose rose;
     struct gb_error err = {0};
     for (int i = 0; i < 60; i++) {
         axis[3 * i] = cos(0.1 * i);
@@ -65,24 +63,24 @@ static void test_planar(void)
         axis[3 * i + 2] = sin(0.1 * i);
         value[i] = 1.0 + 0.5 * cos(0.2 * i);
     }
-    g_assert_true(gb_harmonics_fit(&rose, 2, axis, value, 60, &err));
-    g_assert_cmpfloat_with_epsilon(gb_harmonics_at(&rose, (const double[3]){1, 0, 0}),
-                                   1.5, 1e-9);
-    g_assert_cmpfloat_with_epsilon(gb_harmonics_at(&rose, (const double[3]){0, 0, 1}),
-                                   0.5, 1e-9);
+    g_assert_true(gb_rose_fit(&rose, 2, axis, value, 60, &err));
+    g_assert_cmpfloat_with_epsilon(gb_rose_at(&rose, (const double[3]){1, 0, 0}), 1.5,
+                                   1e-9);
+    g_assert_cmpfloat_with_epsilon(gb_rose_at(&rose, (const double[3]){0, 0, 1}), 0.5,
+                                   1e-9);
 }
 
 static void test_refused(void)
 {
-    struct gb_harmonics rose;
+    struct gb_rose rose;
     struct gb_error err = {0};
     fill_axes();
-    g_assert_false(gb_harmonics_fit(&rose, 3, axis, value, GB_HARMONICS_TERMS - 1, &err));
+    g_assert_false(gb_rose_fit(&rose, 3, axis, value, GB_ROSE_TERMS - 1, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     for (int i = 0; i < 3 * COUNT; i++) {
         axis[i] = 1.0; /* one direction does not determine the others */
     }
-    g_assert_false(gb_harmonics_fit(&rose, 3, axis, value, COUNT, &err));
+    g_assert_false(gb_rose_fit(&rose, 3, axis, value, COUNT, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
 }
 

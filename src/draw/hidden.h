@@ -1,5 +1,5 @@
-#ifndef GB_DRAW_GL_HIDDEN_H
-#define GB_DRAW_GL_HIDDEN_H
+#ifndef GB_DRAW_HIDDEN_H
+#define GB_DRAW_HIDDEN_H
 
 #include <stdint.h>
 
