@@ -9,9 +9,9 @@
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
-#include "figures/compaction_series.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
+#include "figures/series.h"
 #include "many/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
@@ -289,7 +289,7 @@ static void print_refusals(const struct gb_compaction_fits *fits)
 }
 
 /* The figure of the same name, with its data beside it. */
-static bool write_figure(const struct gb_compaction_series *one,
+static bool write_figure(const struct gb_series_powder *one,
                          const struct request *request, struct gb_error *err)
 {
     const struct gb_figures_row *row = gb_figures_find("fit");
@@ -298,7 +298,7 @@ static bool write_figure(const struct gb_compaction_series *one,
                                           .name = row->name,
                                           .existing = existing_files(request)};
     struct gb_series series = {0};
-    bool good = gb_compaction_series_fit(&series, one, 1, err);
+    bool good = gb_series_powder_fit(&series, one, 1, err);
     if (good) {
         gb_figures_axes(row, &series);
         good = gb_plotting_write(&series, &page, request->output, err);
@@ -307,7 +307,7 @@ static bool write_figure(const struct gb_compaction_series *one,
     return good;
 }
 
-static bool print_fits(const struct gb_compaction_series *one, bool csv, bool json,
+static bool print_fits(const struct gb_series_powder *one, bool csv, bool json,
                        struct gb_error *err)
 {
     if (csv || json) {
@@ -324,14 +324,14 @@ static bool print_fits(const struct gb_compaction_series *one, bool csv, bool js
 static bool fit(struct request *request, char **words, struct gb_error *err)
 {
     struct gb_compaction_data data = {0};
-    struct gb_compaction_series one = {0};
+    struct gb_series_powder one = {0};
     const bool good =
         parse(request, err) && read_data(&data, request, words, err) &&
-        gb_compaction_series_init(&one, &data, request->only,
-                                  data.curves > 0 ? "simulated" : "measured", err) &&
+        gb_series_powder_init(&one, &data, request->only,
+                              data.curves > 0 ? "simulated" : "measured", err) &&
         (request->output == NULL || write_figure(&one, request, err)) &&
         print_fits(&one, request->csv, request->json, err);
-    gb_compaction_series_finish(&one);
+    gb_series_powder_finish(&one);
     return good;
 }
 

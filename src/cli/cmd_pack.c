@@ -13,7 +13,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "figures/report/packing.h"
+#include "figures/states.h"
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 #include "io/preset.h"
@@ -372,7 +372,7 @@ static bool write_packing(const struct pack *pack, struct gb_error *err)
     if (!gb_rundir_make(&dir, pack->directory, pack->mode, err)) {
         return false;
     }
-    if (!gb_packing_write(&pack->packing, pack->directory, err) ||
+    if (!gb_states_write_packing(&pack->packing, pack->directory, err) ||
         !pack_bed_write(&pack->bed, pack->directory, err)) {
         gb_rundir_remove(&dir);
         return false;

@@ -12,7 +12,6 @@
 #include "cli/lab_input.h"
 #include "cli/options.h"
 #include "figures/figures.h"
-#include "figures/output_formats.h"
 #include "figures/papers_figures.h"
 #include "figures/plotting.h"
 #include "many/runset.h"
@@ -334,7 +333,7 @@ struct option_texts {
 static struct option_texts describe_options(void)
 {
     return (struct option_texts){
-        .output = gb_output_formats_pattern(GB_OUTPUT_FORMATS_FIGURE),
+        .output = gb_plotting_pattern(GB_PLOTTING_FIGURE),
         .reference = describe_option("a run of the group that is subtracted",
                                      GB_FIGURES_REFERENCE),
         .density = describe_option("densities at which pressures are compared",

@@ -6,7 +6,7 @@
 #include "cli/lab_input.h"
 #include "cli/options.h"
 #include "figures/figures.h"
-#include "figures/report/report.h"
+#include "figures/report.h"
 
 enum { DIRECTORIES_MAX = 1000 };
 

@@ -14,7 +14,7 @@
 #include "draw/packing_image.h"
 #include "draw/picture_colours.h"
 #include "draw/picture_style.h"
-#include "figures/output_formats.h"
+#include "figures/plotting.h"
 #include "figures/sequence.h"
 #include "figures/states.h"
 #include "io/rundir.h"
@@ -83,10 +83,10 @@ static bool parse_request(const struct request *request,
         return gb_error_set(err, GB_ERR_INPUT,
                             "snapshot needs -o FILE.png for the picture");
     }
-    const enum gb_output_formats_use use =
-        request->sequence ? GB_OUTPUT_FORMATS_SEQUENCE : GB_OUTPUT_FORMATS_PICTURE;
-    if (gb_output_formats_find(request->output, use) == NULL) {
-        char *names = gb_output_formats_names(use);
+    const enum gb_plotting_use use =
+        request->sequence ? GB_PLOTTING_SEQUENCE : GB_PLOTTING_PICTURE;
+    if (gb_plotting_format_find(request->output, use) == NULL) {
+        char *names = gb_plotting_format_names(use);
         gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in %s is accepted",
                      request->output, names);
         g_free(names);
@@ -230,7 +230,7 @@ static char *describe_colours(void)
 
 static char *describe_sequence(void)
 {
-    char *videos = gb_output_formats_videos();
+    char *videos = gb_plotting_videos();
     char *text = g_strdup_printf("all kept states: .png is animated, %s a video by "
                                  "ffmpeg, x-%%03d.png one image per state",
                                  videos);

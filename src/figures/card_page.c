@@ -8,8 +8,8 @@
 #include "base/file.h"
 #include "base/number.h"
 #include "figures/figures.h"
+#include "figures/page.h"
 #include "figures/plotting.h"
-#include "figures/report/page.h"
 #include "study/card/card_files.h"
 #include "study/compact/study_text.h"
 
@@ -78,8 +78,7 @@ static void add_parameters(struct gb_page *page, const struct gb_card_study *stu
     for (int k = 0; k < study->levels; k++) {
         g_ptr_array_add(cells, g_strdup_printf("%.4f", study->card.density[k]));
         for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
-            g_ptr_array_add(cells,
-                            cell(&study->quantity[k][n], gb_card_rows[n].factor));
+            g_ptr_array_add(cells, cell(&study->quantity[k][n], gb_card_rows[n].factor));
         }
     }
     const struct gb_page_table_content content = {

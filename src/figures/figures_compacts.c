@@ -708,9 +708,8 @@ static bool draw_strength_curves(struct gb_series *series, const struct chosen *
                                                    : "Pressed to the "
                                                      "density %g.",
                       chosen->value);
-    gb_series_caption(series,
-                      "Pale: each cell; lines: their mean where all cells are, "
-                      "with one standard error.");
+    gb_series_caption(series, "Pale: each cell; lines: their mean where all cells are, "
+                              "with one standard error.");
     return true;
 }
 

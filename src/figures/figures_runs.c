@@ -8,7 +8,6 @@
 
 #include "base/alloc.h"
 #include "base/units.h"
-#include "figures/compaction_series.h"
 #include "figures/figures.h"
 #include "figures/series.h"
 #include "many/runset.h"
@@ -826,14 +825,13 @@ static bool compute_sweep(struct gb_series *series, const struct gb_figures_inpu
 static bool compute_fit(struct gb_series *series, const struct gb_figures_input *input,
                         struct gb_error *err)
 {
-    return gb_compaction_series_runs(series, input->set, gb_compaction_series_fit, err);
+    return gb_series_powder_runs(series, input->set, gb_series_powder_fit, err);
 }
 
 static bool compute_heckel(struct gb_series *series, const struct gb_figures_input *input,
                            struct gb_error *err)
 {
-    return gb_compaction_series_runs(series, input->set, gb_compaction_series_heckel,
-                                     err);
+    return gb_series_powder_runs(series, input->set, gb_series_powder_heckel, err);
 }
 
 const struct gb_figures_row gb_figures_runs_rows[] = {

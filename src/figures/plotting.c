@@ -1,14 +1,112 @@
+/* Writes figures to files, with their data beside them, and adds measured points to a figure.
+ * The table below has the output formats of figures, pictures and sequences. */
 #include "figures/plotting.h"
 
+#include <glib.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/built_with.h"
 #include "base/file.h"
-#include "figures/output_formats.h"
+#include "figures/sequence.h"
 #include "figures/states.h"
 #include "io/rundir.h"
+
+#if GB_WITH_PICTURES
+#define FRAMES(writer) .frames = &(writer)
+#else
+#define FRAMES(writer) .frames = NULL
+#endif
+
+/* Even sides and 4:2:0 colours, which all encoders accept and all players show. */
+#define EVEN_YUV420 "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p"
+/* GIF has 256 colours, chosen from all frames. */
+#define OWN_PALETTE "split[a][b];[a]palettegen[p];[b][p]paletteuse"
+
+/* A format is a writer and a row here; messages and help follow from the row. */
+static const struct gb_plotting_format table[] = {
+    {".png", "image with the preset in its text chunks; a sequence is an animated PNG",
+     GB_PLOTTING_FIGURE | GB_PLOTTING_PICTURE | GB_PLOTTING_SEQUENCE,
+     .figure = gb_figure_write_png, FRAMES(gb_sequence_apng)},
+    {".svg", "vector figure", GB_PLOTTING_FIGURE, .figure = gb_figure_write_svg},
+    {".pdf", "vector figure", GB_PLOTTING_FIGURE, .figure = gb_figure_write_pdf},
+    {".csv", "data of a figure", GB_PLOTTING_FIGURE, .figure = NULL},
+    {".mp4", "video (ffmpeg)", GB_PLOTTING_SEQUENCE, FRAMES(gb_sequence_video),
+     .video_filter = EVEN_YUV420},
+    {".webm", "video (ffmpeg)", GB_PLOTTING_SEQUENCE, FRAMES(gb_sequence_video),
+     .video_filter = EVEN_YUV420},
+    {".mkv", "video (ffmpeg)", GB_PLOTTING_SEQUENCE, FRAMES(gb_sequence_video),
+     .video_filter = EVEN_YUV420},
+    {".gif", "animated image (ffmpeg)", GB_PLOTTING_SEQUENCE, FRAMES(gb_sequence_video),
+     .video_filter = OWN_PALETTE},
+    {0},
+};
+
+const struct gb_plotting_format *gb_plotting_formats(void)
+{
+    return table;
+}
+
+static bool is_for(const struct gb_plotting_format *row, enum gb_plotting_use use)
+{
+    return (row->uses & use) != 0;
+}
+
+const struct gb_plotting_format *gb_plotting_format_find(const char *path,
+                                                         enum gb_plotting_use use)
+{
+    for (const struct gb_plotting_format *row = table; row->extension; row++) {
+        if (is_for(row, use) && g_str_has_suffix(path, row->extension)) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+/* Rows of a use, or its videos alone. */
+enum chosen { ALL, VIDEOS };
+
+static char *join_names(enum gb_plotting_use use, enum chosen chosen)
+{
+    GPtrArray *names = g_ptr_array_new();
+    for (const struct gb_plotting_format *row = table; row->extension; row++) {
+        if (is_for(row, use) && (chosen == ALL || row->video_filter != NULL)) {
+            g_ptr_array_add(names, (gpointer)(uintptr_t)row->extension);
+        }
+    }
+    GString *text = g_string_new(NULL);
+    for (guint k = 0; k < names->len; k++) {
+        const char *before = k == 0 ? "" : k + 1 < names->len ? ", " : " or ";
+        g_string_append_printf(text, "%s%s", before,
+                               (const char *)g_ptr_array_index(names, k));
+    }
+    g_ptr_array_unref(names);
+    return g_string_free(text, FALSE);
+}
+
+char *gb_plotting_format_names(enum gb_plotting_use use)
+{
+    return join_names(use, ALL);
+}
+
+char *gb_plotting_videos(void)
+{
+    return join_names(GB_PLOTTING_SEQUENCE, VIDEOS);
+}
+
+char *gb_plotting_pattern(enum gb_plotting_use use)
+{
+    GString *text = g_string_new("FILE.");
+    for (const struct gb_plotting_format *row = table; row->extension; row++) {
+        if (is_for(row, use)) {
+            g_string_append_printf(text, "%s|", row->extension + 1);
+        }
+    }
+    g_string_truncate(text, text->len - 1);
+    return g_string_free(text, FALSE);
+}
 
 /* "x.png" -> "x.csv"; g_free. */
 static char *csv_path(const char *path)
@@ -46,8 +144,8 @@ static bool check_twin(const char *csv, enum gb_plotting_existing existing,
 bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
                        struct gb_error *err)
 {
-    if (gb_output_formats_find(output, GB_OUTPUT_FORMATS_FIGURE) == NULL) {
-        char *names = gb_output_formats_names(GB_OUTPUT_FORMATS_FIGURE);
+    if (gb_plotting_format_find(output, GB_PLOTTING_FIGURE) == NULL) {
+        char *names = gb_plotting_format_names(GB_PLOTTING_FIGURE);
         gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in %s is accepted",
                      output, names);
         g_free(names);
@@ -107,8 +205,8 @@ bool gb_plotting_write(const struct gb_series *series,
                        const struct gb_plotting_page *page, const char *output,
                        struct gb_error *err)
 {
-    const struct gb_output_formats_row *format =
-        gb_output_formats_find(output, GB_OUTPUT_FORMATS_FIGURE);
+    const struct gb_plotting_format *format =
+        gb_plotting_format_find(output, GB_PLOTTING_FIGURE);
     gb_figure_writer *writer = format != NULL ? format->figure : NULL;
     char *csv = csv_path(output);
     GString *text = gb_series_csv(series);

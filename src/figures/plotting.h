@@ -2,7 +2,42 @@
 #define GB_FIGURES_PLOTTING_H
 
 #include "base/table.h"
+#include "draw/figure.h"
 #include "figures/series.h"
+
+enum gb_plotting_use {
+    GB_PLOTTING_FIGURE = 1,   /* of plot */
+    GB_PLOTTING_PICTURE = 2,  /* of snapshot */
+    GB_PLOTTING_SEQUENCE = 4, /* of snapshot --sequence */
+};
+
+struct gb_frame_writer;
+
+struct gb_plotting_format {
+    const char *extension; /* with its dot */
+    const char *doc;
+    unsigned uses; /* sum of the above */
+    /* of a figure; NULL: only the data, which every figure has beside it */
+    gb_figure_writer *figure;
+    const struct gb_frame_writer *frames; /* of a sequence; NULL: none */
+    const char *video_filter;             /* of ffmpeg; NULL: no video */
+};
+
+/* The last row has no extension. */
+const struct gb_plotting_format *gb_plotting_formats(void);
+
+/* By the extension of a path; NULL: no format for this use. */
+const struct gb_plotting_format *gb_plotting_format_find(const char *path,
+                                                         enum gb_plotting_use use);
+
+/* ".png, .svg or .pdf"; g_free. */
+char *gb_plotting_format_names(enum gb_plotting_use use);
+
+/* "FILE.png|svg|pdf", for a list of options; g_free. */
+char *gb_plotting_pattern(enum gb_plotting_use use);
+
+/* ".mp4, .webm or .gif": the videos of a sequence; g_free. */
+char *gb_plotting_videos(void);
 
 enum gb_plotting_existing { GB_PLOTTING_KEEP, GB_PLOTTING_REPLACE };
 

@@ -7,7 +7,9 @@
 
 #include "draw/figure.h"
 #include "greenbody/status.h"
+#include "many/compaction_data.h"
 #include "many/runset.h"
+#include "measure/fit/compaction/compaction_fits.h"
 
 /* A curve of a figure: indices of columns of its series, -1: none. */
 struct gb_series_curve {
@@ -160,5 +162,39 @@ struct gb_series_points {
  * holds pointers to them. */
 bool gb_series_unrelaxed(struct gb_series *series, const struct gb_runset *set,
                          const struct gb_series_points *axes, struct gb_error *err);
+
+/* Points of one powder with fitted equations of compaction as curves of a figure. */
+struct gb_series_powder {
+    struct gb_compaction_data data;
+    struct gb_compaction_fits fits;
+    char *label; /* of the points, Pango markup */
+};
+
+/* Fits all equations (only NULL), or one, to data that it takes over; label is copied.
+ * gb_series_powder_finish must be called in any case.  Errors: GB_ERR_INPUT when none is
+ * defined, GB_ERR_MEMORY. */
+bool gb_series_powder_init(struct gb_series_powder *one,
+                           const struct gb_compaction_data *data,
+                           const struct gb_equation *only, const char *label,
+                           struct gb_error *err);
+
+void gb_series_powder_finish(struct gb_series_powder *one); /* zeroed is fine */
+
+/* Draws powders into a series that it initialises. */
+typedef bool gb_series_powder_draw(struct gb_series *series,
+                                   const struct gb_series_powder *all, size_t count,
+                                   struct gb_error *err);
+
+/* Density against pressure with the curves of the best equations, residuals below: up to
+ * six of one powder, the best one of each of several. */
+gb_series_powder_draw gb_series_powder_fit;
+
+/* ln(1/(1 - rho)) against pressure with the line of the straightest stretch of each.
+ * Errors: GB_ERR_INPUT where Heckel's equation is refused. */
+gb_series_powder_draw gb_series_powder_heckel;
+
+/* The groups of a set as powders, drawn by one of the functions above. */
+bool gb_series_powder_runs(struct gb_series *series, const struct gb_runset *set,
+                           gb_series_powder_draw *draw, struct gb_error *err);
 
 #endif

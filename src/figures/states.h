@@ -5,7 +5,9 @@
 #include <stdbool.h>
 
 #include "figures/figures.h"
+#include "greenbody/params.h"
 #include "io/state.h"
+#include "measure/structure.h"
 #include "scene/field/keep_points.h"
 
 /* Kept states of a run directory: the last, state.h5, and those in its folder snapshots. */
@@ -48,5 +50,24 @@ void gb_states_set_means(struct gb_series *series, const struct gb_runset *set,
 
 /* Range of density and pressure of the states as a sentence of the caption. */
 void gb_states_set_caption(struct gb_series *series, const struct gb_states_set *states);
+
+/* An initial structure and the quantities measured on it. */
+struct gb_packing {
+    struct gb_params params;
+    struct gb_state *state;
+    struct gb_connectivity connectivity;
+    double r_eq;  /* of touching particles, d */
+    double reach; /* of a contact, d */
+    double r_max; /* of g, d */
+    int bins;
+    double *g;
+    double g_end; /* over the last diameter before r_max */
+};
+
+/* Writes preset.ini, packing.csv, g.csv, structure.json and state.h5 into a directory
+ * that is there; each file atomically.  A bed in a die, whose packing.csv has radii, is
+ * without the third and fourth.  Errors: GB_ERR_MACHINE. */
+bool gb_states_write_packing(const struct gb_packing *packing, const char *directory,
+                             struct gb_error *err);
 
 #endif

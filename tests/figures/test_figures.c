@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/built_with.h"
-#include "figures/output_formats.h"
 #include "figures/plotting.h"
 
 /* Directories that a figure is drawn from, by what it takes, unless it has a row of its
@@ -172,11 +171,11 @@ static void test_formats(void)
     const struct gb_plotting_page page = {400, 300, "time", NULL, NULL, GB_PLOTTING_KEEP,
                                           0};
     g_assert_true(figure_folder_named("time", runs, &series, &err));
-    for (const struct gb_output_formats_row *row = gb_output_formats_table();
-         row->extension; row++) {
+    for (const struct gb_plotting_format *row = gb_plotting_formats(); row->extension;
+         row++) {
         char *name = g_strconcat("out", row->extension, NULL);
         char *path = figure_folder_path(name, NULL);
-        const bool figure = (row->uses & GB_OUTPUT_FORMATS_FIGURE) != 0;
+        const bool figure = (row->uses & GB_PLOTTING_FIGURE) != 0;
         g_assert_true(gb_plotting_check(path, GB_PLOTTING_REPLACE, &err) == figure);
         if (figure) {
             g_assert_true(gb_plotting_write(&series, &page, path, &err));
@@ -188,20 +187,20 @@ static void test_formats(void)
         g_free(name);
     }
     gb_series_finish(&series);
-    char *names = gb_output_formats_names(GB_OUTPUT_FORMATS_FIGURE);
-    char *pattern = gb_output_formats_pattern(GB_OUTPUT_FORMATS_FIGURE);
+    char *names = gb_plotting_format_names(GB_PLOTTING_FIGURE);
+    char *pattern = gb_plotting_pattern(GB_PLOTTING_FIGURE);
     g_assert_true(g_str_has_prefix(names, ".png, "));
     g_assert_true(g_str_has_prefix(pattern, "FILE.png|"));
-    for (const struct gb_output_formats_row *row = gb_output_formats_table();
-         row->extension; row++) {
-        const bool figure = (row->uses & GB_OUTPUT_FORMATS_FIGURE) != 0;
+    for (const struct gb_plotting_format *row = gb_plotting_formats(); row->extension;
+         row++) {
+        const bool figure = (row->uses & GB_PLOTTING_FIGURE) != 0;
         g_assert_true((strstr(names, row->extension) != NULL) == figure);
         g_assert_true((strstr(pattern, row->extension + 1) != NULL) == figure);
         g_assert_true(figure || row->frames != NULL || !GB_WITH_PICTURES);
     }
     g_free(pattern);
     g_free(names);
-    char *pictures = gb_output_formats_names(GB_OUTPUT_FORMATS_PICTURE);
+    char *pictures = gb_plotting_format_names(GB_PLOTTING_PICTURE);
     g_assert_cmpstr(pictures, ==, ".png");
     g_free(pictures);
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "figures/report/report.h"
+#include "figures/report.h"
 #include "run/moduli/moduli_states.h"
 
 /* Captions are numbered from 1 on, and name the conditions of the runs where they show

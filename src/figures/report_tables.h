@@ -1,7 +1,7 @@
 #ifndef GB_FIGURES_REPORT_REPORT_TABLES_H
 #define GB_FIGURES_REPORT_REPORT_TABLES_H
 
-#include "figures/report/report.h"
+#include "figures/report.h"
 #include "many/runset.h"
 
 /* A table of the page and of a CSV file. */

@@ -1,5 +1,5 @@
 /* The report: figures, pictures, provenance and preset as parts; the folder with its page. */
-#include "figures/report/report.h"
+#include "figures/report.h"
 
 #include <errno.h>
 #include <glib/gstdio.h>
@@ -14,7 +14,7 @@
 #include "draw/picture_colours.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
-#include "figures/report/report_tables.h"
+#include "figures/report_tables.h"
 #include "figures/states.h"
 
 /* Caption of the next figure, "Figure 3. ...", with the conditions of the scenes; g_free. */

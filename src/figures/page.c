@@ -1,4 +1,4 @@
-#include "figures/report/page.h"
+#include "figures/page.h"
 
 #include <stdbool.h>
 #include <string.h>

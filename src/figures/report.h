@@ -2,7 +2,7 @@
 #define GB_FIGURES_REPORT_REPORT_H
 
 #include "base/table.h"
-#include "figures/report/page.h"
+#include "figures/page.h"
 #include "many/runset.h"
 
 /* Report of some runs: a folder with figures, tables, pictures and presets, and a page over

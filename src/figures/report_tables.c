@@ -1,7 +1,7 @@
 /* The tables of a report, each a part of it: results with errors and conditions, densities at
  * round pressures, fitted equations, keys in use, papers.  First what the parts share: a table
  * of page and CSV, the conditions of a scene, the papers. */
-#include "figures/report/report_tables.h"
+#include "figures/report_tables.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/listing.h"
 #include "base/number.h"
-#include "figures/report/report.h"
+#include "figures/report.h"
 #include "figures/series.h"
 #include "io/measured.h"
 #include "io/status_json.h"
