@@ -13,7 +13,7 @@
 #include "figures/plotting.h"
 #include "figures/series.h"
 #include "many/compaction_data.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 
 static void add_row(struct gb_listing *listing, const char *equation, const char *name,
                     const struct gb_fit_value *value, const char *unit)

@@ -19,8 +19,7 @@
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/state.h"
-#include "measure/fit/average.h"
-#include "measure/percolation.h"
+#include "measure/average.h"
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
 #include "run/experiment.h"
@@ -50,7 +49,7 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
     }
     struct gb_chain_growth grow = gb_chain_growth_from_model(model);
     grow.cancelled = gb_progress_cancelled;
-    if (!gb_percolation_find(&grow, &particles, err)) {
+    if (!gb_structure_percolation(&grow, &particles, err)) {
         return false;
     }
     *count = (double)particles;
@@ -82,7 +81,7 @@ static void add_mean(struct gb_listing *listing, const struct gb_model *model,
     g_string_free(text, TRUE);
 }
 
-/* Errors: GB_ERR_INPUT (lattices, those of gb_percolation_find, stdout cannot be written). */
+/* Errors: GB_ERR_INPUT (lattices, those of gb_structure_percolation, stdout cannot be written). */
 static bool pack_percolation(const struct gb_params *params, int cells,
                              struct gb_error *err)
 {
@@ -349,7 +348,7 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
 {
     const struct gb_state *state = packing->state;
     const struct gb_cell cell = gb_state_cell(state);
-    packing->reach = gb_percolation_reach(packing->r_eq);
+    packing->reach = gb_structure_reach(packing->r_eq);
     packing->r_max = fmin(0.5 * gb_cell_shortest(&cell), r_limit);
     packing->bins = (int)ceil(packing->r_max / bin_width);
     packing->g = gb_alloc_array((size_t)packing->bins, sizeof *packing->g, err);

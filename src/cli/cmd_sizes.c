@@ -10,7 +10,7 @@
 #include "base/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "measure/fit/lognormal.h"
+#include "measure/distribution.h"
 
 static const char diameter_prefix[] = "diameter_";
 
@@ -116,9 +116,9 @@ static bool fit(char **words, struct gb_error *err)
     }
     struct gb_error why = {0};
     bool good = read_histogram(&histogram, words[0], err);
-    if (good &&
-        !gb_lognormal_fit(&law, histogram.middle, histogram.weight,
-                          gb_table_rows(histogram.table), histogram.particles, &why)) {
+    if (good && !gb_distribution_lognormal(&law, histogram.middle, histogram.weight,
+                                           gb_table_rows(histogram.table),
+                                           histogram.particles, &why)) {
         good = gb_error_set(err, why.code, "%.200s: %s", words[0], why.text);
     }
     if (good) {

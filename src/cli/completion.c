@@ -14,7 +14,7 @@
 #include "io/export.h"
 #include "io/material.h"
 #include "io/preset_folders.h"
-#include "measure/fit/compaction/equations.h"
+#include "measure/equations.h"
 #include "study/law/law_table.h"
 #include "tui/term/settings.h"
 

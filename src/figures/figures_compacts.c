@@ -5,9 +5,9 @@
 #include "base/alloc.h"
 #include "base/table.h"
 #include "figures/figures.h"
-#include "measure/cap/cap.h"
-#include "measure/fit/average.h"
-#include "measure/fit/ellipse.h"
+#include "measure/average.h"
+#include "measure/cap.h"
+#include "measure/yield_point.h"
 #include "scene/field/keep_points.h"
 #include "study/strength/strength.h"
 
@@ -341,7 +341,7 @@ static size_t draw_yield_points(struct gb_series *series, const struct surfaces 
             continue;
         }
         const double at[2] = {column[P][i], column[Q][i]};
-        const double angle = gb_ellipse_normal(ellipse, at[0], at[1]);
+        const double angle = gb_yield_point_ellipse_normal(ellipse, at[0], at[1]);
         p[filled] = at[0];
         q[filled] = at[1];
         p_error[filled] = column[P_ERROR][i];

@@ -12,9 +12,8 @@
 #include "figures/states.h"
 #include "io/state.h"
 #include "many/die_summary.h"
+#include "measure/average.h"
 #include "measure/ball.h"
-#include "measure/density_map.h"
-#include "measure/fit/average.h"
 #include "pack/die/die.h"
 
 /* Measures of a state in a die over height and radius. */
@@ -29,7 +28,7 @@ static bool check_die(const struct gb_state *state, const char *figure,
 }
 
 /* Density over rings of the bore and bands of the height of the powder, or of what the
- * punch leaves; values as of gb_density_map_fill. */
+ * punch leaves; values as of gb_ball_density_map. */
 static struct gb_density_map find_density_map(const struct gb_state *state, int rings,
                                               int bands, double *density)
 {
@@ -39,7 +38,7 @@ static struct gb_density_map find_density_map(const struct gb_state *state, int 
                                        .low = 0.0,
                                        .high = state->cell[2]};
     const double centre[2] = {0.5 * state->cell[0], 0.5 * state->cell[1]};
-    gb_density_map_fill(&map, state->count, state->position, state->radius, centre,
+    gb_ball_density_map(&map, state->count, state->position, state->radius, centre,
                         density);
     return map;
 }

@@ -8,9 +8,9 @@
 #include "figures/figures.h"
 #include "figures/series.h"
 #include "many/mean_curves.h"
-#include "measure/fit/average.h"
-#include "measure/fit/fit.h"
-#include "measure/fit/power.h"
+#include "measure/average.h"
+#include "measure/fit.h"
+#include "measure/power.h"
 #include "scene/derived.h"
 
 /* Mean pressures of groups of runs that differ in their rate, at given densities, and the

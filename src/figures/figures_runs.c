@@ -11,8 +11,7 @@
 #include "figures/figures.h"
 #include "figures/series.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
-#include "measure/hardening.h"
+#include "measure/average.h"
 #include "measure/theory.h"
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
@@ -209,8 +208,8 @@ static bool fit_law(struct gb_hardening *law, const struct gb_series_sample *sam
             pressure[count++] = 1e6 * pressure[i];
         }
     }
-    good = good &&
-           gb_hardening_init(law, GB_GEOMETRY_UNIAXIAL, density, pressure, count, err);
+    good = good && gb_theory_hardening_init(law, GB_GEOMETRY_UNIAXIAL, density, pressure,
+                                            count, err);
     g_free(density);
     g_free(pressure);
     g_free(error);
@@ -236,14 +235,14 @@ static void draw_theory(struct gb_series *series, const struct gb_hardening *law
 {
     for (size_t g = 0; g < G_N_ELEMENTS(geometries); g++) {
         const int geometry = geometries[g].geometry;
-        const double end = gb_hardening_density_max(law, geometry);
+        const double end = gb_theory_hardening_density_max(law, geometry);
         double *density =
             gb_series_column(series, "density_theory_%s", geometries[g].name);
         double *mpa = gb_series_column(series, "theory_%s_MPa", geometries[g].name);
         for (size_t i = 0; i < THEORY_POINTS; i++) {
             density[i] =
                 law->start + (end - law->start) * (double)i / (THEORY_POINTS - 1);
-            mpa[i] = 1e-6 * gb_hardening_pressure(law, geometry, density[i]);
+            mpa[i] = 1e-6 * gb_theory_hardening_pressure(law, geometry, density[i]);
         }
         note_densities(series, geometries[g].name, density, mpa);
         if (geometry == GB_GEOMETRY_UNIAXIAL) {
@@ -277,7 +276,7 @@ static bool compute_continuum(struct gb_series *series,
     if (good) {
         draw_theory(series, &law, set->groups);
     }
-    gb_hardening_finish(&law);
+    gb_theory_hardening_finish(&law);
     gb_series_sample_finish(&sample);
     return good;
 }

@@ -26,7 +26,7 @@
 #define OWN_PALETTE "split[a][b];[a]palettegen[p];[b][p]paletteuse"
 
 /* A format is a writer and a row here; messages and help follow from the row. */
-static const struct gb_plotting_format table[] = {
+static const struct gb_plotting_format formats[] = {
     {".png", "image with the preset in its text chunks; a sequence is an animated PNG",
      GB_PLOTTING_FIGURE | GB_PLOTTING_PICTURE | GB_PLOTTING_SEQUENCE,
      .figure = gb_figure_write_png, FRAMES(gb_sequence_apng)},
@@ -46,7 +46,7 @@ static const struct gb_plotting_format table[] = {
 
 const struct gb_plotting_format *gb_plotting_formats(void)
 {
-    return table;
+    return formats;
 }
 
 static bool is_for(const struct gb_plotting_format *row, enum gb_plotting_use use)
@@ -57,7 +57,7 @@ static bool is_for(const struct gb_plotting_format *row, enum gb_plotting_use us
 const struct gb_plotting_format *gb_plotting_format_find(const char *path,
                                                          enum gb_plotting_use use)
 {
-    for (const struct gb_plotting_format *row = table; row->extension; row++) {
+    for (const struct gb_plotting_format *row = formats; row->extension; row++) {
         if (is_for(row, use) && g_str_has_suffix(path, row->extension)) {
             return row;
         }
@@ -71,7 +71,7 @@ enum chosen { ALL, VIDEOS };
 static char *join_names(enum gb_plotting_use use, enum chosen chosen)
 {
     GPtrArray *names = g_ptr_array_new();
-    for (const struct gb_plotting_format *row = table; row->extension; row++) {
+    for (const struct gb_plotting_format *row = formats; row->extension; row++) {
         if (is_for(row, use) && (chosen == ALL || row->video_filter != NULL)) {
             g_ptr_array_add(names, (gpointer)(uintptr_t)row->extension);
         }
@@ -99,7 +99,7 @@ char *gb_plotting_videos(void)
 char *gb_plotting_pattern(enum gb_plotting_use use)
 {
     GString *text = g_string_new("FILE.");
-    for (const struct gb_plotting_format *row = table; row->extension; row++) {
+    for (const struct gb_plotting_format *row = formats; row->extension; row++) {
         if (is_for(row, use)) {
             g_string_append_printf(text, "%s|", row->extension + 1);
         }

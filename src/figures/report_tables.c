@@ -16,9 +16,8 @@
 #include "many/compaction_data.h"
 #include "many/die_summary.h"
 #include "many/runset.h"
-#include "measure/cell_scatter.h"
-#include "measure/fit/average.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/average.h"
+#include "measure/compaction_fits.h"
 #include "run/moduli/moduli_states.h"
 #include "scene/derived.h"
 #include "scene/field/field.h"
@@ -539,7 +538,8 @@ static void put_densities(struct gb_report_table *table, const struct gb_runset 
             char *quantity =
                 g_strdup_printf("relative density at %g MPa", results_levels[k]);
             if (result.cells == 1) {
-                result.error = gb_cell_scatter(&gb_runset_first(set, group)->params);
+                result.error =
+                    gb_average_cell_scatter(&gb_runset_first(set, group)->params);
             }
             put(table, &result, quantity, NULL);
             g_free(quantity);

@@ -14,8 +14,8 @@
 #include "base/visible.h"
 #include "many/compaction_data.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/average.h"
+#include "measure/compaction_fits.h"
 #include "scene/loading_kind.h"
 
 static void free_label(void *curve)

@@ -9,7 +9,7 @@
 #include "greenbody/status.h"
 #include "many/compaction_data.h"
 #include "many/runset.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 
 /* A curve of a figure: indices of columns of its series, -1: none. */
 struct gb_series_curve {

@@ -21,7 +21,7 @@
 #include "io/preset.h"
 #include "io/state.h"
 #include "io/status_json.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 #include "measure/structure.h"
 #include "run/record/kept_states.h"
 

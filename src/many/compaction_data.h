@@ -8,8 +8,8 @@
 #include "greenbody/params.h"
 #include "io/lab/lab_quantity.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
-#include "measure/fit/compaction/equations.h"
+#include "measure/average.h"
+#include "measure/equations.h"
 
 /* Measured compaction: quantities at pressures, of one powder or of several that differ in
  * given keys.  A table as gb_lab_reader_read gives it, with the columns

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "measure/fit/average.h"
+#include "measure/average.h"
 #include "scene/loading_kind.h"
 
 /* Last value of a column on a branch. */

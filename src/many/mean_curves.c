@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 
 enum { GB_MEAN_CURVES_GRID = 4000 }; /* most points of a mean */
 

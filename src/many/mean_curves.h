@@ -2,8 +2,8 @@
 #define GB_MANY_MEAN_CURVES_H
 
 #include "many/runset.h"
-#include "measure/fit/average.h"
-#include "measure/fit/fit.h"
+#include "measure/average.h"
+#include "measure/fit.h"
 
 /* One branch of the runs of a group and its mean. */
 struct gb_mean_curves {

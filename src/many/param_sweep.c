@@ -26,7 +26,7 @@
 #include "many/ensemble.h"
 #include "many/reading.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 
 enum { COORDINATES_MOST = 40 };
 

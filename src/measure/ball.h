@@ -1,7 +1,10 @@
 #ifndef GB_MEASURE_BALL_H
 #define GB_MEASURE_BALL_H
 
+#include <stdbool.h>
 #include <stdint.h>
+
+#include "greenbody/status.h"
 
 /* Exact volumes of spheres cut by spheres and planes, and the densities that P3 takes
  * from them.  Any unit of length.  Sums of positive terms throughout: the relative error
@@ -50,5 +53,32 @@ double gb_ball_density_central(int64_t count, const double *position,
  * start   count + 1 */
 double gb_ball_overlap_volume(int64_t count, const double *position, const double *radius,
                               const int64_t *start, const int32_t *other);
+
+/* Relative density of spheres over rings about the z axis: bands of equal height times
+ * rings of equal width.  Any unit of length. */
+struct gb_density_map {
+    int rings, bands;
+    double radius;    /* of the outermost ring */
+    double low, high; /* heights */
+};
+
+/* Volume of a sphere within a cylinder about the z axis, between two heights: the shared
+ * areas of its sections, by Gauss' rule of 24 points in the angle asin(z/r) on each of the
+ * intervals between the heights at which a section begins to touch the cylinder or leaves
+ * it.  Relative error below 1e-6 of the sphere.
+ *
+ * sphere     radius, 0 or more
+ * axis       distance of the sphere's centre from the axis
+ * low, high  heights above the sphere's centre, low <= high */
+double gb_ball_cylinder(double cylinder, double sphere, double axis, double low,
+                        double high);
+
+/* density  rings x bands values, ring by ring: solid over the volume of each.  Where
+ *          spheres overlap, their shared volume counts twice.
+ * position count x 3, the axis through centre[0], centre[1]
+ * radius   count */
+void gb_ball_density_map(const struct gb_density_map *map, int64_t count,
+                         const double *position, const double *radius,
+                         const double centre[2], double *density);
 
 #endif

@@ -1,13 +1,112 @@
+/* Measures of a packing right after an evaluation: tensors and their invariants, contacts,
+ * energies, roses; of periodic cells, then of beds in a die. */
 #include "measure/observe.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
+#include "base/mat.h"
+#include "base/portable.h"
 #include "base/team.h"
 #include "base/vec.h"
+#include "measure/ball.h"
 #include "pack/cell/world.h"
+#include "pack/die/bed.h"
+#include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"
 #include "scene/unequal_pair.h"
+
+/* Invariants of a tensor of stresses or of fabric, in 3D or in the x-z plane (dimension 2:
+ * row and column y do not count). */
+
+static double counted(int k, int dimension)
+{
+    return dimension == 3 || k != 1 ? 1.0 : 0.0;
+}
+
+double gb_observe_mean(const double tensor[3][3], int dimension)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        sum += counted(k, dimension) * tensor[k][k];
+    }
+    return sum / dimension;
+}
+
+/* Deviator of the symmetric part; returns s:s. */
+static double deviator(const double tensor[3][3], int dimension, double s[3][3])
+{
+    const double mean = gb_observe_mean(tensor, dimension);
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++) {
+            const double normal = k == l ? mean : 0.0;
+            s[k][l] = counted(k, dimension) * counted(l, dimension) *
+                      (0.5 * (tensor[k][l] + tensor[l][k]) - normal);
+            square += s[k][l] * s[k][l];
+        }
+    }
+    return square;
+}
+
+double gb_observe_deviatoric(const double tensor[3][3], int dimension)
+{
+    double s[3][3];
+    return sqrt((dimension == 3 ? 1.5 : 2.0) * deviator(tensor, dimension, s));
+}
+
+double gb_observe_asymmetry(const double tensor[3][3], int dimension)
+{
+    const double xz = tensor[0][2] - tensor[2][0];
+    const double xy = counted(1, dimension) * (tensor[0][1] - tensor[1][0]);
+    const double yz = counted(1, dimension) * (tensor[1][2] - tensor[2][1]);
+    const double mean = gb_observe_mean(tensor, dimension);
+    return mean != 0.0 ? sqrt(0.5 * (xy * xy + xz * xz + yz * yz)) / fabs(mean)
+                       : (double)NAN;
+}
+
+/* The eigenvalues of a deviator in 3D are 2 sqrt(J2/3) cos(phi + 2 pi k/3), where
+ * cos(3 phi) = (3 sqrt(3)/2) J3/J2^1.5. */
+double gb_observe_largest_deviator(const double tensor[3][3], int dimension)
+{
+    double s[3][3];
+    const double j2 = 0.5 * deviator(tensor, dimension, s);
+    if (dimension == 2 || j2 == 0.0) {
+        return sqrt(j2);
+    }
+    const double j3 = gb_mat_determinant((const double(*)[3])s);
+    const double cosine = 1.5 * sqrt(3.0) * j3 / (j2 * sqrt(j2));
+    return 2.0 * sqrt(j2 / 3.0) * cos(acos(fmax(-1.0, fmin(1.0, cosine))) / 3.0);
+}
+
+/* Sum over weight; NaN without a weight. */
+static void mean_tensor(const struct gb_fabric_sums *sums, int kind, double tensor[3][3])
+{
+    static const int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+    for (int a = 0; a < 9; a++) {
+        tensor[a / 3][a % 3] =
+            sums->tensor[kind][component[a / 3][a % 3]] / sums->weight[kind];
+    }
+}
+
+void gb_observe_fabric(const struct gb_world *world, double pressure[3][3],
+                       struct gb_fabric *fabric)
+{
+    const int dimension = gb_world_model(world)->dimension;
+    struct gb_fabric_sums sums = {.weight = {0}};
+    gb_world_tensors(world, pressure, &sums);
+    for (int kind = 0; kind < GB_FABRIC_KINDS; kind++) {
+        double tensor[3][3];
+        mean_tensor(&sums, kind, tensor);
+        fabric->anisotropy[kind] =
+            (dimension == 3 ? 1.5 : 2.0) *
+            gb_observe_largest_deviator((const double(*)[3])tensor, dimension);
+    }
+    for (int k = 0; k < 6; k++) {
+        fabric->all[k] = sums.tensor[GB_FABRIC_ALL][k] / sums.weight[GB_FABRIC_ALL];
+    }
+}
 
 double gb_observe_density(const struct gb_world *world)
 {
@@ -202,5 +301,147 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
     }
     for (int b = 0; b < bins; b++) {
         mean[b] = hits[b] > 0 ? sum[b] / (double)hits[b] : NAN;
+    }
+}
+
+/* Measures of a bed in a die right after an evaluation; reduced units. */
+
+double gb_observe_die_density(const struct gb_bed *bed, double height)
+{
+    const double area = M_PI * bed->die.radius * bed->die.radius;
+    return height > 0.0 ? gb_bed_solid_volume(bed) / (area * height) : (double)NAN;
+}
+
+double gb_observe_die_central(const struct gb_bed *bed, double height, double radius)
+{
+    const double centre[3] = {0.0, 0.0, 0.5 * height};
+    double solid = 0.0;
+    if (height < 2.0 * radius) {
+        return (double)NAN;
+    }
+    for (int64_t i = 0; i < bed->count; i++) {
+        double r[3] = {0.0, 0.0, 0.0};
+        gb_vec_add(r, 1.0, bed->position[i]);
+        gb_vec_add(r, -1.0, centre);
+        solid += gb_ball_shared_volume(bed->position[i][3], radius, gb_vec_length(r));
+    }
+    return solid / gb_ball_volume(radius);
+}
+
+static bool touches(const struct gb_bed_list *list, int64_t slot)
+{
+    return list->contacts.normal[slot] >= 0.0;
+}
+
+/* Contacts of every particle with others into each, or with walls too. */
+static void count_each(const struct gb_bed *bed, bool walls, int32_t *each)
+{
+    for (int64_t i = 0; i < bed->count; i++) {
+        each[i] = 0;
+    }
+    for (int64_t slot = 0; slot < bed->pairs.count; slot++) {
+        if (touches(&bed->pairs, slot)) {
+            each[bed->pairs.first[slot]]++;
+            each[bed->pairs.other[slot]]++;
+        }
+    }
+    for (int64_t slot = 0; walls && slot < bed->walls.count; slot++) {
+        each[bed->walls.first[slot]] += touches(&bed->walls, slot);
+    }
+}
+
+void gb_observe_die_contacts(const struct gb_bed *bed, struct gb_contact_counts *counts,
+                             double *share, int bins, int32_t *each)
+{
+    int32_t *held = bed->counts;
+    *counts = (struct gb_contact_counts){0};
+    count_each(bed, true, held);
+    for (int64_t i = 0; i < bed->count; i++) {
+        counts->rattlers += held[i] < 2;
+    }
+    count_each(bed, false, held);
+    for (int b = 0; share && b < bins; b++) {
+        share[b] = 0.0;
+    }
+    for (int64_t i = 0; i < bed->count; i++) {
+        counts->contacts += held[i];
+        if (share) {
+            share[held[i] < bins ? held[i] : bins - 1] += 1.0 / (double)bed->count;
+        }
+        if (each) {
+            each[i] = held[i];
+        }
+    }
+    counts->contacts /= 2;
+    counts->coordination = 2.0 * (double)counts->contacts / (double)bed->count;
+}
+
+double gb_observe_die_filled(const struct gb_bed *bed)
+{
+    double top = 0.0;
+    count_each(bed, true, bed->counts);
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double *x = bed->position[i];
+        if (bed->counts[i] > 0 && x[2] < bed->die.height) {
+            top = fmax(top, x[2] + x[3]);
+        }
+    }
+    return top;
+}
+
+void gb_observe_die_wall(const struct gb_bed *bed, double height, int bands,
+                         double *pressure)
+{
+    const double area = 2.0 * M_PI * bed->die.radius * height / bands;
+    for (int b = 0; b < bands; b++) {
+        pressure[b] = height > 0.0 ? 0.0 : (double)NAN;
+    }
+    for (int64_t slot = 0; height > 0.0 && slot < bed->walls.count; slot++) {
+        const double *x = bed->position[bed->walls.first[slot]];
+        double unit[3];
+        if (bed->walls.other[slot] != GB_DIE_SIDE || !touches(&bed->walls, slot)) {
+            continue;
+        }
+        gb_die_overlap(&bed->die, GB_DIE_SIDE, x, x[3], unit);
+        const double radial = gb_portable_hypot(unit[0], unit[1]);
+        const int b = (int)(x[2] / height * bands);
+        pressure[b < bands ? b : bands - 1] +=
+            bed->walls.contacts.normal[slot] * radial / area;
+    }
+}
+
+void gb_observe_die_force(const struct gb_bed *bed, int64_t slot, double unit[3],
+                          double force[3])
+{
+    const struct gb_bed_contacts *contacts = &bed->pairs.contacts;
+    const double *xi = bed->position[bed->pairs.first[slot]];
+    const double *xj = bed->position[bed->pairs.other[slot]];
+    for (int k = 0; k < 3; k++) {
+        unit[k] = xi[k] - xj[k];
+    }
+    gb_vec_scale(unit, 1.0 / gb_vec_length(unit));
+    for (int k = 0; k < 3; k++) {
+        force[k] = contacts->normal[slot] * unit[k] + contacts->shear[k][slot];
+    }
+}
+
+void gb_observe_die_rose(const struct gb_bed *bed, int bins, double *mean)
+{
+    enum { BINS_MOST = 360 };
+    double sum[BINS_MOST] = {0};
+    int64_t hits[BINS_MOST] = {0};
+    bins = bins < BINS_MOST ? bins : BINS_MOST;
+    for (int64_t slot = 0; slot < bed->pairs.count; slot++) {
+        if (touches(&bed->pairs, slot)) {
+            double unit[3], force[3];
+            gb_observe_die_force(bed, slot, unit, force);
+            const int b =
+                (int)(acos(fmin(1.0, fabs(unit[2]))) / (0.5 * M_PI) * (double)bins);
+            sum[b < bins ? b : bins - 1] += bed->pairs.contacts.normal[slot];
+            hits[b < bins ? b : bins - 1]++;
+        }
+    }
+    for (int b = 0; b < bins; b++) {
+        mean[b] = hits[b] > 0 ? sum[b] / (double)hits[b] : (double)NAN;
     }
 }

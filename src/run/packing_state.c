@@ -11,8 +11,6 @@
 #include "io/point_columns.h"
 #include "io/state_record.h"
 #include "measure/observe.h"
-#include "measure/observe_die.h"
-#include "measure/tensor.h"
 #include "pack/cell/world.h"
 #include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"
@@ -56,8 +54,8 @@ static void measure_tensors(const struct gb_loading *loading, const double press
         point->strain[k] = gb_portable_log(model->edges[k] / cell->edge[k]);
         point->strain[3 + k] = cell->shear[k];
     }
-    point->q_pa = pascal * gb_tensor_deviatoric(pressure, model->dimension);
-    point->asymmetry = gb_tensor_asymmetry(pressure, model->dimension);
+    point->q_pa = pascal * gb_observe_deviatoric(pressure, model->dimension);
+    point->asymmetry = gb_observe_asymmetry(pressure, model->dimension);
     memcpy(point->fabric, fabric->all, sizeof point->fabric);
     memcpy(point->anisotropy, fabric->anisotropy, sizeof point->anisotropy);
     if (model->dimension == 2) {
@@ -84,7 +82,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
     double tensor[3][3];
     struct gb_contact_counts counts;
     struct gb_fabric fabric;
-    gb_tensor_fabric(loading->world, tensor, &fabric);
+    gb_observe_fabric(loading->world, tensor, &fabric);
     const double pressure[3] = {tensor[0][0], tensor[1][1], tensor[2][2]};
     gb_observe_contacts(loading->world, &counts, NULL, 0, NULL);
     *point = (struct gb_point){

@@ -4,7 +4,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/snapshot.h"
 #include "io/state.h"
-#include "measure/tensor.h"
+#include "measure/observe.h"
 #include "solve/loading/loading.h"
 
 /* What the packing is: density, pressures, contacts.  In a periodic cell iterations,

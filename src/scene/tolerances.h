@@ -492,7 +492,7 @@
  * interact with two images of the same neighbour. */
 #define GB_EDGE_OVER_RANGE_MIN 2.0
 
-/* Largest strain that the material of a card (measure/cap/cap_path.h) takes at once.
+/* Largest strain that the material of a card (measure/cap.h) takes at once.
  * Halving it changes p_x/p_z of a uniaxial path by less than 1e-4; larger: parameters lag
  * behind the density. */
 #define GB_CAP_SUBSTEP 1e-4

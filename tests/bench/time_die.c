@@ -9,7 +9,7 @@
 
 #include "bench.h"
 #include "greenbody/snapshot.h"
-#include "measure/observe_die.h"
+#include "measure/observe.h"
 #include "pack/die/filling.h"
 #include "solve/leapfrog.h"
 #include "solve/loading/die/die_stages.h"

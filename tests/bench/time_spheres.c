@@ -12,7 +12,7 @@
 
 #include "base/clock.h"
 #include "base/vec.h"
-#include "measure/observe_die.h"
+#include "measure/observe.h"
 #include "pack/die/bed_list.h"
 #include "solve/leapfrog.h"
 #include "spheres.h"

@@ -8,7 +8,7 @@
 
 #include "io/lab/lab_reader.h"
 #include "many/compaction_data.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 
 static const struct gb_compaction_window whole = {
     .from = (double)NAN, .to = (double)NAN, .initial = (double)NAN};
@@ -34,8 +34,8 @@ static bool read_path(struct gb_compaction_data *data, const char *path,
     if (outcome == GB_LAB_QUESTION) {
         return gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, report.question);
     }
-    const bool good =
-        outcome == GB_LAB_READ && gb_compaction_data_file(data, table, series, window, err);
+    const bool good = outcome == GB_LAB_READ &&
+                      gb_compaction_data_file(data, table, series, window, err);
     gb_table_destroy(table);
     return good;
 }

@@ -4,7 +4,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 
 static const double x[] = {0.0, 1.0, 2.0, 2.0, 4.0};
 static const double y[] = {0.0, 2.0, 3.0, 5.0, (double)NAN};

@@ -6,9 +6,8 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-#include "measure/cap/cap.h"
-#include "measure/cap/cap_fit.h"
-#include "measure/cap/cap_path.h"
+#include "measure/cap.h"
+#include "measure/cap_fit.h"
 
 enum { POINTS = 12, SAMPLES = 300 };
 
@@ -222,7 +221,7 @@ static const struct gb_cap_material material = {rows, G_N_ELEMENTS(rows)};
 static void strain(struct gb_cap_state *state, const double step[6])
 {
     struct gb_error err = {0};
-    if (!gb_cap_path_strain(&material, state, step, &err)) {
+    if (!gb_cap_strain(&material, state, step, &err)) {
         g_error("%s", err.text);
     }
 }
@@ -248,13 +247,13 @@ static void test_isotropic(void)
     const double after = total - 50e6 / 4e9;
     const double p = 50e6 + after / (1.0 / 4e9 + 1.0 / slope);
     strain(&state, step);
-    g_assert_cmpfloat_with_epsilon(gb_cap_path_mean(state.pressure), p, 1e-6 * p);
+    g_assert_cmpfloat_with_epsilon(gb_cap_mean(state.pressure), p, 1e-6 * p);
     g_assert_cmpfloat_with_epsilon(state.plastic_volume, (p - 50e6) / slope, 1e-8);
-    g_assert_cmpfloat_with_epsilon(gb_cap_path_deviator(state.pressure), 0.0, 1.0);
+    g_assert_cmpfloat_with_epsilon(gb_cap_deviator(state.pressure), 0.0, 1.0);
     /* back to no pressure: elastic */
     const double back[6] = {-p / 12e9, -p / 12e9, -p / 12e9, 0.0, 0.0, 0.0};
     strain(&state, back);
-    g_assert_cmpfloat_with_epsilon(gb_cap_path_mean(state.pressure), 0.0, 1e-6 * p);
+    g_assert_cmpfloat_with_epsilon(gb_cap_mean(state.pressure), 0.0, 1e-6 * p);
 }
 
 /* On a uniaxial path the stress stays on the cap, and its flow follows the normal; steps
@@ -268,10 +267,8 @@ static void test_uniaxial(void)
     for (int i = 0; i < 4000; i++) {
         strain(&fine, small);
     }
-    const double p = gb_cap_path_mean(fine.pressure),
-                 q = gb_cap_path_deviator(fine.pressure);
-    const struct gb_cap_row now =
-        gb_cap_path_at(&material, fine.density, fine.plastic_volume);
+    const double p = gb_cap_mean(fine.pressure), q = gb_cap_deviator(fine.pressure);
+    const struct gb_cap_row now = gb_cap_at(&material, fine.density, fine.plastic_volume);
     g_assert_cmpfloat_with_epsilon(q, gb_cap_height(&now.cap, p), 1e-4 * q);
     g_assert_cmpfloat(p, >, now.cap.p_a);
     g_assert_cmpfloat_with_epsilon(coarse.pressure[0] / coarse.pressure[2],
@@ -287,10 +284,9 @@ static void test_shear(void)
     struct gb_cap_state state = {.density = 0.45, .plastic_volume = 0.2};
     const double step[6] = {0.0, 0.0, 0.0, 0.0, 0.04, 0.0};
     strain(&state, step);
-    const double p = gb_cap_path_mean(state.pressure),
-                 q = gb_cap_path_deviator(state.pressure);
+    const double p = gb_cap_mean(state.pressure), q = gb_cap_deviator(state.pressure);
     const struct gb_cap_row now =
-        gb_cap_path_at(&material, state.density, state.plastic_volume);
+        gb_cap_at(&material, state.density, state.plastic_volume);
     g_assert_cmpfloat(p, >, 0.0);
     g_assert_cmpfloat(state.plastic_volume, <, 0.2);
     g_assert_cmpfloat_with_epsilon(q, now.cap.d + p * tan(now.cap.beta), 2e-3 * q);
@@ -305,7 +301,7 @@ static void test_tension(void)
     const double step[6] = {-0.02, -0.02, -0.02, 0.0, 0.0, 0.0};
     strain(&state, step);
     const double apex = -30e6 / tan(0.8);
-    g_assert_cmpfloat_with_epsilon(gb_cap_path_mean(state.pressure), apex, 1e-6 * -apex);
+    g_assert_cmpfloat_with_epsilon(gb_cap_mean(state.pressure), apex, 1e-6 * -apex);
 }
 
 static void test_check(void)
@@ -313,9 +309,9 @@ static void test_check(void)
     struct gb_cap_row wrong[2] = {rows[0], rows[1]};
     const struct gb_cap_material bad = {wrong, 2};
     struct gb_error err = {0};
-    g_assert_true(gb_cap_path_check(&material, &err));
+    g_assert_true(gb_cap_check(&material, &err));
     wrong[1].p_b = wrong[0].p_b;
-    g_assert_false(gb_cap_path_check(&bad, &err));
+    g_assert_false(gb_cap_check(&bad, &err));
     g_assert_nonnull(strstr(err.text, "0.6000"));
 }
 

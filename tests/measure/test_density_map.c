@@ -3,7 +3,6 @@
 #include <glib.h>
 
 #include "measure/ball.h"
-#include "measure/density_map.h"
 
 /* Sphere within a cylinder about its own axis: a slab of the sphere where it is wide. */
 static void test_coaxial(void)
@@ -14,10 +13,9 @@ static void test_coaxial(void)
         /* the cylinder's part between the caps, and the caps */
         const double exact =
             2.0 * M_PI * c * c * half + 2.0 * gb_ball_slab(sphere, half, INFINITY);
-        const double found =
-            gb_density_map_cylinder(cylinder, sphere, 0.0, -INFINITY, INFINITY);
+        const double found = gb_ball_cylinder(cylinder, sphere, 0.0, -INFINITY, INFINITY);
         g_assert_cmpfloat_with_epsilon(found / exact, 1.0, 1e-6);
-        const double part = gb_density_map_cylinder(cylinder, sphere, 0.0, 0.0, INFINITY);
+        const double part = gb_ball_cylinder(cylinder, sphere, 0.0, 0.0, INFINITY);
         g_assert_cmpfloat_with_epsilon(part / exact, 0.5, 1e-6);
     }
 }
@@ -30,13 +28,12 @@ static void test_plane(void)
     for (double at = -0.6; at <= 0.6; at += 0.15) {
         const double exact = gb_ball_slab(sphere, -INFINITY, at);
         const double found =
-            gb_density_map_cylinder(wide, sphere, wide - at, -INFINITY, INFINITY);
+            gb_ball_cylinder(wide, sphere, wide - at, -INFINITY, INFINITY);
         g_assert_cmpfloat_with_epsilon(found / ball, exact / ball, 1e-5);
     }
-    g_assert_cmpfloat(gb_density_map_cylinder(1.0, 0.5, 1.5, -INFINITY, INFINITY), ==,
-                      0.0);
+    g_assert_cmpfloat(gb_ball_cylinder(1.0, 0.5, 1.5, -INFINITY, INFINITY), ==, 0.0);
     g_assert_cmpfloat_with_epsilon(
-        gb_density_map_cylinder(2.0, sphere, 0.4, -INFINITY, INFINITY) / ball, 1.0, 1e-6);
+        gb_ball_cylinder(2.0, sphere, 0.4, -INFINITY, INFINITY) / ball, 1.0, 1e-6);
 }
 
 /* Against a midpoint rule in the plane of the section, 240 x 240 cells. */
@@ -60,7 +57,7 @@ static void test_eccentric(void)
         }
         sum *= 4.0 * sphere * sphere / N / N;
         const double found =
-            gb_density_map_cylinder(cylinder, sphere, axis, -INFINITY, INFINITY);
+            gb_ball_cylinder(cylinder, sphere, axis, -INFINITY, INFINITY);
         g_assert_cmpfloat_with_epsilon(found / gb_ball_volume(sphere),
                                        sum / gb_ball_volume(sphere), 1e-3);
     }
@@ -84,7 +81,7 @@ static void test_conserves(void)
     for (size_t k = 0; k < G_N_ELEMENTS(shape); k++) {
         const struct gb_density_map map = {shape[k][0], shape[k][1], 3.0, 0.0, 8.0};
         double sum = 0.0;
-        gb_density_map_fill(&map, SPHERES, position, radius, (double[2]){5.0, 4.0},
+        gb_ball_density_map(&map, SPHERES, position, radius, (double[2]){5.0, 4.0},
                             density);
         for (int c = 0; c < map.rings * map.bands; c++) {
             const double ring = c / map.bands, width = map.radius / map.rings;
@@ -108,7 +105,7 @@ static void test_column(void)
         radius[i] = 0.5;
     }
     const struct gb_density_map map = {1, BALLS, 0.5, 0.0, BALLS};
-    gb_density_map_fill(&map, BALLS, position, radius, (double[2]){0.0, 0.0}, density);
+    gb_ball_density_map(&map, BALLS, position, radius, (double[2]){0.0, 0.0}, density);
     for (int k = 0; k < BALLS; k++) {
         g_assert_cmpfloat_with_epsilon(density[k], 2.0 / 3.0, 1e-6);
     }

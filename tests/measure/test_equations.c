@@ -7,7 +7,7 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 
 enum { POINTS = 25, TRIALS = 20, LEAST = 18, MANY = 200 };
 

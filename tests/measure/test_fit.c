@@ -6,8 +6,8 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-#include "measure/fit/fit.h"
-#include "measure/fit/power.h"
+#include "measure/fit.h"
+#include "measure/power.h"
 
 enum { POINTS = 600, SAMPLES = 200 };
 

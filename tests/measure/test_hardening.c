@@ -4,7 +4,7 @@
 #include <glib.h>
 
 #include "greenbody/params.h"
-#include "measure/hardening.h"
+#include "measure/theory.h"
 
 enum { POINTS = 200 };
 
@@ -17,13 +17,15 @@ static void test_values(void)
     static const double shear[][2] = {{0.5817287476093925, 0.9623767435313227},
                                       {0.45225436681434567, 0.7758967485746995},
                                       {0.39972578016561766, 0.701918078147933}};
-    g_assert_cmpfloat_with_epsilon(gb_hardening_phi(0.5), 0.3149802624737183, 1e-15);
-    g_assert_cmpfloat_with_epsilon(gb_hardening_psi(0.5), 0.26248355206143187, 1e-15);
+    g_assert_cmpfloat_with_epsilon(gb_theory_hardening_phi(0.5), 0.3149802624737183,
+                                   1e-15);
+    g_assert_cmpfloat_with_epsilon(gb_theory_hardening_psi(0.5), 0.26248355206143187,
+                                   1e-15);
     for (size_t i = 0; i < G_N_ELEMENTS(geometries); i++) {
-        g_assert_cmpfloat_with_epsilon(gb_hardening_shear(geometries[i], 0.24, 0.5),
-                                       shear[i][0], 1e-11);
-        g_assert_cmpfloat_with_epsilon(gb_hardening_shear(geometries[i], 0.24, 0.7),
-                                       shear[i][1], 1e-11);
+        g_assert_cmpfloat_with_epsilon(
+            gb_theory_hardening_shear(geometries[i], 0.24, 0.5), shear[i][0], 1e-11);
+        g_assert_cmpfloat_with_epsilon(
+            gb_theory_hardening_shear(geometries[i], 0.24, 0.7), shear[i][1], 1e-11);
     }
 }
 
@@ -32,9 +34,9 @@ static void known_curve(int geometry, double *density, double *pressure)
 {
     for (int i = 0; i < POINTS; i++) {
         density[i] = 0.24 + 0.46 * i / (POINTS - 1);
-        const double shear = gb_hardening_shear(geometry, 0.24, density[i]);
-        pressure[i] = gb_hardening_resistance(geometry, density[i]) * sqrt(density[i]) *
-                      100.0 * (1.0 + 2.0 * shear);
+        const double shear = gb_theory_hardening_shear(geometry, 0.24, density[i]);
+        pressure[i] = gb_theory_hardening_resistance(geometry, density[i]) *
+                      sqrt(density[i]) * 100.0 * (1.0 + 2.0 * shear);
     }
 }
 
@@ -47,20 +49,20 @@ static void test_law(void)
         double density[POINTS], pressure[POINTS];
         struct gb_hardening law;
         known_curve(geometries[from], density, pressure);
-        g_assert_true(
-            gb_hardening_init(&law, geometries[from], density, pressure, POINTS, NULL));
+        g_assert_true(gb_theory_hardening_init(&law, geometries[from], density, pressure,
+                                               POINTS, NULL));
         for (size_t to = 0; to < G_N_ELEMENTS(geometries); to++) {
             g_assert_cmpfloat_with_epsilon(
-                gb_hardening_pressure(&law, geometries[to], 0.5), want[to], 1e-8);
+                gb_theory_hardening_pressure(&law, geometries[to], 0.5), want[to], 1e-8);
         }
         for (int i = 0; i < POINTS; i++) {
             g_assert_cmpfloat_with_epsilon(
-                gb_hardening_pressure(&law, geometries[from], density[i]), pressure[i],
-                1e-7);
+                gb_theory_hardening_pressure(&law, geometries[from], density[i]),
+                pressure[i], 1e-7);
         }
-        g_assert_cmpfloat_with_epsilon(gb_hardening_density_max(&law, geometries[from]),
-                                       0.7, 1e-9);
-        gb_hardening_finish(&law);
+        g_assert_cmpfloat_with_epsilon(
+            gb_theory_hardening_density_max(&law, geometries[from]), 0.7, 1e-9);
+        gb_theory_hardening_finish(&law);
     }
 }
 
@@ -72,20 +74,21 @@ static void test_ends(void)
     struct gb_hardening law;
     known_curve(GB_GEOMETRY_UNIAXIAL, density, pressure);
     pressure[0] = pressure[1] = -1.0; /* tensile: a loose packing */
-    g_assert_true(
-        gb_hardening_init(&law, GB_GEOMETRY_UNIAXIAL, density, pressure, POINTS, NULL));
+    g_assert_true(gb_theory_hardening_init(&law, GB_GEOMETRY_UNIAXIAL, density, pressure,
+                                           POINTS, NULL));
     g_assert_cmpuint(law.count, ==, POINTS - 2);
-    g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_UNIAXIAL, density[1])));
-    g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_UNIAXIAL, 0.701)));
-    g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_ISOTROPIC, 0.2)));
-    g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_ISOTROPIC, 1.0)));
-    const double end = gb_hardening_density_max(&law, GB_GEOMETRY_ISOTROPIC);
+    g_assert_true(
+        isnan(gb_theory_hardening_pressure(&law, GB_GEOMETRY_UNIAXIAL, density[1])));
+    g_assert_true(isnan(gb_theory_hardening_pressure(&law, GB_GEOMETRY_UNIAXIAL, 0.701)));
+    g_assert_true(isnan(gb_theory_hardening_pressure(&law, GB_GEOMETRY_ISOTROPIC, 0.2)));
+    g_assert_true(isnan(gb_theory_hardening_pressure(&law, GB_GEOMETRY_ISOTROPIC, 1.0)));
+    const double end = gb_theory_hardening_density_max(&law, GB_GEOMETRY_ISOTROPIC);
     g_assert_cmpfloat(end, >, 0.75);
     g_assert_cmpfloat(end, <, 1.0);
-    g_assert_cmpfloat_with_epsilon(gb_hardening_shear(GB_GEOMETRY_ISOTROPIC, 0.24, end),
-                                   gb_hardening_shear(GB_GEOMETRY_UNIAXIAL, 0.24, 0.7),
-                                   1e-9);
-    gb_hardening_finish(&law);
+    g_assert_cmpfloat_with_epsilon(
+        gb_theory_hardening_shear(GB_GEOMETRY_ISOTROPIC, 0.24, end),
+        gb_theory_hardening_shear(GB_GEOMETRY_UNIAXIAL, 0.24, 0.7), 1e-9);
+    gb_theory_hardening_finish(&law);
 }
 
 static void test_refuse(void)
@@ -97,13 +100,13 @@ static void test_refuse(void)
     static const double pulls[] = {-1.0, 0.0, 3.0};
     struct gb_error err = {0};
     struct gb_hardening law;
-    g_assert_false(gb_hardening_init(&law, 0, falls, pressure, 3, &err));
+    g_assert_false(gb_theory_hardening_init(&law, 0, falls, pressure, 3, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    g_assert_false(gb_hardening_init(&law, 0, dense, pressure, 3, &err));
-    g_assert_false(gb_hardening_init(&law, 0, good, pulls, 3, &err));
-    g_assert_false(gb_hardening_init(&law, 0, good, pressure, 0, &err));
-    g_assert_true(gb_hardening_init(&law, 0, good, pressure, 3, &err));
-    gb_hardening_finish(&law);
+    g_assert_false(gb_theory_hardening_init(&law, 0, dense, pressure, 3, &err));
+    g_assert_false(gb_theory_hardening_init(&law, 0, good, pulls, 3, &err));
+    g_assert_false(gb_theory_hardening_init(&law, 0, good, pressure, 0, &err));
+    g_assert_true(gb_theory_hardening_init(&law, 0, good, pressure, 3, &err));
+    gb_theory_hardening_finish(&law);
 }
 
 int main(int argc, char **argv)

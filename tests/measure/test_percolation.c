@@ -1,5 +1,4 @@
 /* The number of particles at which a growing cluster percolates. */
-#include "measure/percolation.h"
 
 #include <glib.h>
 #include <math.h>
@@ -29,8 +28,8 @@ static bool spans(const struct gb_chain_growth *from, int64_t count)
     double *position = g_new(double, (gsize)(3 * count));
     gb_cell_init(&cell, grow.dimension, grow.edges);
     g_assert_true(gb_chain_growth_run(&grow, position, &err));
-    g_assert_true(gb_structure_connectivity(
-        &cell, count, position, NULL, gb_percolation_reach(grow.r_eq), &found, &err));
+    g_assert_true(gb_structure_connectivity(&cell, count, position, NULL,
+                                            gb_structure_reach(grow.r_eq), &found, &err));
     g_free(position);
     return found.percolates[0] && found.percolates[2] &&
            (grow.dimension == 2 || found.percolates[1]);
@@ -45,7 +44,7 @@ static void test_least(void)
                 growth(dimension, dimension == 2 ? 15.0 : 7.0, 150, seed);
             struct gb_error err = {0};
             int64_t found = 0;
-            g_assert_true(gb_percolation_find(&grow, &found, &err));
+            g_assert_true(gb_structure_percolation(&grow, &found, &err));
             g_test_message("%d dimensions, seed %d: %d", dimension, (int)seed,
                            (int)found);
             g_assert_true(spans(&grow, found));
@@ -62,7 +61,7 @@ static void test_start(void)
     static const int64_t counts[3] = {20, 150, 5000};
     for (int k = 0; k < 3; k++) {
         const struct gb_chain_growth grow = growth(2, 15.0, counts[k], 3);
-        g_assert_true(gb_percolation_find(&grow, &found[k], &err));
+        g_assert_true(gb_structure_percolation(&grow, &found[k], &err));
         g_assert_cmpint(found[k], ==, found[0]);
     }
 }
@@ -76,7 +75,7 @@ static void test_published(void)
         const struct gb_chain_growth grow = growth(2, 30.0, 600, (uint64_t)k + 1);
         struct gb_error err = {0};
         int64_t found = 0;
-        g_assert_true(gb_percolation_find(&grow, &found, &err));
+        g_assert_true(gb_structure_percolation(&grow, &found, &err));
         sum += (double)found;
         squares += (double)(found * found);
     }
@@ -100,11 +99,11 @@ static void test_refusals(void)
     struct gb_error err = {0};
     int64_t found = 0;
     grow.model = &model;
-    g_assert_false(gb_percolation_find(&grow, &found, &err));
+    g_assert_false(gb_structure_percolation(&grow, &found, &err));
     g_assert_nonnull(strstr(err.text, "particles.distribution"));
     grow = growth(2, 15.0, 100, 1);
     grow.cancelled = at_once;
-    g_assert_false(gb_percolation_find(&grow, &found, &err));
+    g_assert_false(gb_structure_percolation(&grow, &found, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
 }
 

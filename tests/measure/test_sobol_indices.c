@@ -1,4 +1,4 @@
-#include "measure/fit/sobol_indices.h"
+#include "measure/surrogate.h"
 
 #include <math.h>
 #include <string.h>
@@ -50,7 +50,7 @@ static struct gb_sobol_indices fit(const double *at, const double *value)
     struct gb_sobol_indices indices;
     struct gb_error err = {0};
     g_assert_true(
-        gb_sobol_indices_fit(&indices, VARIABLES, POINTS, SEEDS, at, value, &err));
+        gb_surrogate_sobol(&indices, VARIABLES, POINTS, SEEDS, at, value, &err));
     return indices;
 }
 
@@ -137,7 +137,7 @@ static void test_errors(void)
         value[i] = NAN;
     }
     g_assert_false(
-        gb_sobol_indices_fit(&indices, VARIABLES, POINTS, SEEDS, at, value, &err));
+        gb_surrogate_sobol(&indices, VARIABLES, POINTS, SEEDS, at, value, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     g_assert_nonnull(strstr(err.text, "too few"));
 }

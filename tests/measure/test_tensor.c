@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "common/scene.h"
-#include "measure/tensor.h"
+#include "measure/observe.h"
 
 /* Triaxial state: q is the difference of the pressures; simple shear: sqrt(3) times the
  * shear stress. */
@@ -12,14 +12,14 @@ static void test_deviatoric(void)
     const double shear[3][3] = {{4, 0, 1}, {0, 4, 0}, {1, 0, 4}};
     const double skew[3][3] = {{4, 0, 1}, {0, 4, 0}, {-1, 0, 4}};
     const double plane[3][3] = {{1, 9, 0}, {9, 77, 9}, {0, 9, 4}};
-    g_assert_cmpfloat_with_epsilon(gb_tensor_mean(triaxial, 3), 3.0, 1e-15);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_deviatoric(triaxial, 3), 3.0, 1e-14);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_deviatoric(shear, 3), sqrt(3.0), 1e-14);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_deviatoric(skew, 3), 0.0, 1e-14);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_asymmetry(skew, 3), sqrt(2.0) / 4.0, 1e-14);
-    g_assert_cmpfloat(gb_tensor_asymmetry(shear, 3), ==, 0.0);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_deviatoric(plane, 2), 3.0, 1e-14);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_mean(plane, 2), 2.5, 1e-15);
+    g_assert_cmpfloat_with_epsilon(gb_observe_mean(triaxial, 3), 3.0, 1e-15);
+    g_assert_cmpfloat_with_epsilon(gb_observe_deviatoric(triaxial, 3), 3.0, 1e-14);
+    g_assert_cmpfloat_with_epsilon(gb_observe_deviatoric(shear, 3), sqrt(3.0), 1e-14);
+    g_assert_cmpfloat_with_epsilon(gb_observe_deviatoric(skew, 3), 0.0, 1e-14);
+    g_assert_cmpfloat_with_epsilon(gb_observe_asymmetry(skew, 3), sqrt(2.0) / 4.0, 1e-14);
+    g_assert_cmpfloat(gb_observe_asymmetry(shear, 3), ==, 0.0);
+    g_assert_cmpfloat_with_epsilon(gb_observe_deviatoric(plane, 2), 3.0, 1e-14);
+    g_assert_cmpfloat_with_epsilon(gb_observe_mean(plane, 2), 2.5, 1e-15);
 }
 
 /* Eigenvalues of deviators that are known: diagonal in a rotated frame. */
@@ -38,9 +38,9 @@ static void test_largest(void)
     const double isotropic[3][3] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     const double plane[3][3] = {{1, 0, 2}, {0, 9, 0}, {2, 0, 1}};
     g_assert_cmpfloat_with_epsilon(
-        gb_tensor_largest_deviator((const double(*)[3])tensor, 3), 7.0 - mean, 1e-13);
-    g_assert_cmpfloat(gb_tensor_largest_deviator(isotropic, 3), ==, 0.0);
-    g_assert_cmpfloat_with_epsilon(gb_tensor_largest_deviator(plane, 2), 2.0, 1e-14);
+        gb_observe_largest_deviator((const double(*)[3])tensor, 3), 7.0 - mean, 1e-13);
+    g_assert_cmpfloat(gb_observe_largest_deviator(isotropic, 3), ==, 0.0);
+    g_assert_cmpfloat_with_epsilon(gb_observe_largest_deviator(plane, 2), 2.0, 1e-14);
 }
 
 /* The trace of a fabric tensor is 1; a packing that is pressed along z has more contacts
@@ -54,7 +54,7 @@ static void test_fabric(void)
     double pressure[3][3];
     struct gb_fabric fabric;
     scene_press(world, 60, 10, 2.0);
-    gb_tensor_fabric(world, pressure, &fabric);
+    gb_observe_fabric(world, pressure, &fabric);
     g_assert_cmpfloat_with_epsilon(fabric.all[0] + fabric.all[1] + fabric.all[2], 1.0,
                                    1e-12);
     g_assert_true(isnan(fabric.anisotropy[GB_FABRIC_BRIDGED])); /* there are none */
@@ -80,7 +80,7 @@ static void test_pair(void)
         g_error("%s", err.text);
     }
     scene_evaluate(world);
-    gb_tensor_fabric(world, pressure, &fabric);
+    gb_observe_fabric(world, pressure, &fabric);
     g_assert_cmpfloat_with_epsilon(fabric.all[2], 1.0, 1e-14);
     g_assert_cmpfloat_with_epsilon(fabric.anisotropy[GB_FABRIC_ALL], 1.0, 1e-7);
     g_assert_cmpfloat_with_epsilon(fabric.anisotropy[GB_FABRIC_FORCE], 1.0, 1e-7);

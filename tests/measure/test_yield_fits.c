@@ -2,10 +2,9 @@
 #include <glib.h>
 #include <math.h>
 
+#include "measure/distribution.h"
 #include "measure/elastic.h"
-#include "measure/fit/ellipse.h"
-#include "measure/fit/weibull.h"
-#include "measure/yield_offset.h"
+#include "measure/yield_point.h"
 
 enum { ROWS = 400 };
 
@@ -15,7 +14,7 @@ static struct gb_yield_elastic elastic_of(void)
 {
     struct gb_yield_elastic elastic;
     const double by_volume[2] = {bulk, 0.4}, by_shear[2] = {0.3, shear3};
-    g_assert_true(gb_yield_offset_elastic(&elastic, by_volume, by_shear));
+    g_assert_true(gb_yield_point_elastic(&elastic, by_volume, by_shear));
     return elastic;
 }
 
@@ -39,12 +38,12 @@ static void test_perfectly_plastic(void)
     const struct gb_yield_path path = {p, q, v, w, ROWS, M_PI / 2.0};
     const struct gb_yield_elastic elastic = elastic_of();
     struct gb_yield_point point;
-    g_assert_true(gb_yield_offset_find(&path, &elastic, 1e-3, 1.5, &point));
+    g_assert_true(gb_yield_point_find(&path, &elastic, 1e-3, 1.5, &point));
     g_assert_cmpfloat_with_epsilon(point.q_pa, yield, 1e-12);
     g_assert_cmpfloat_with_epsilon(point.p_pa, 0.1, 1e-12);
     g_assert_cmpfloat_with_epsilon(point.flow_shear, 1e-3, 1e-9);
     g_assert_cmpfloat_with_epsilon(point.flow_volume, flow * 1e-3, 1e-9);
-    g_assert_false(gb_yield_offset_find(&path, &elastic, 0.02, 1.5, &point));
+    g_assert_false(gb_yield_point_find(&path, &elastic, 0.02, 1.5, &point));
 }
 
 /* An elastic path has no yield point; slopes without a stiffness are refused. */
@@ -60,10 +59,10 @@ static void test_elastic(void)
     const struct gb_yield_path path = {p, q, v, w, ROWS, 0.0};
     const struct gb_yield_elastic elastic = elastic_of();
     struct gb_yield_point point;
-    g_assert_false(gb_yield_offset_find(&path, &elastic, 1e-6, 1.5, &point));
+    g_assert_false(gb_yield_point_find(&path, &elastic, 1e-6, 1.5, &point));
     const double none[2] = {-1.0, 0.0}, slope[2] = {bulk, 0.4};
     struct gb_yield_elastic refused;
-    g_assert_false(gb_yield_offset_elastic(&refused, none, slope));
+    g_assert_false(gb_yield_point_elastic(&refused, none, slope));
 }
 
 /* A compact that stiffens under compression takes less strain than its first stiffness says.
@@ -84,12 +83,12 @@ static void test_stiffening(void)
     struct gb_yield_path path = {p, q, v, w, ROWS, 0.0};
     struct gb_yield_elastic elastic;
     struct gb_yield_point point;
-    g_assert_true(gb_yield_offset_elastic(&elastic, by_volume, by_shear));
-    g_assert_true(gb_yield_offset_find(&path, &elastic, 1e-3, 1.5, &point));
+    g_assert_true(gb_yield_point_elastic(&elastic, by_volume, by_shear));
+    g_assert_true(gb_yield_point_find(&path, &elastic, 1e-3, 1.5, &point));
     g_assert_cmpfloat_with_epsilon(point.p_pa, yield, 1e-12);
     g_assert_cmpfloat(point.flow_volume, >, 0.0);
     path.count = 250; /* before it yields */
-    g_assert_false(gb_yield_offset_find(&path, &elastic, 1e-3, 1.5, &point));
+    g_assert_false(gb_yield_point_find(&path, &elastic, 1e-3, 1.5, &point));
 }
 
 /* An isotropic body, then one that is stiffer along z. */
@@ -126,16 +125,16 @@ static void test_ellipse(void)
         p[i] = 40.0 + 55.0 * cos(0.3 + i);
         q[i] = -3.0 + 20.0 * sin(0.3 + i);
     }
-    g_assert_true(gb_ellipse_fit(&ellipse, p, q, POINTS, &err));
+    g_assert_true(gb_yield_point_ellipse(&ellipse, p, q, POINTS, &err));
     g_assert_cmpfloat_with_epsilon(ellipse.centre_p, 40.0, 1e-6);
     g_assert_cmpfloat_with_epsilon(ellipse.centre_q, -3.0, 1e-6);
     g_assert_cmpfloat_with_epsilon(ellipse.half_p, 55.0, 1e-6);
     g_assert_cmpfloat_with_epsilon(ellipse.half_q, 20.0, 1e-6);
     g_assert_cmpfloat(ellipse.misfit, <, 1e-9);
-    const double normal = gb_ellipse_normal(&ellipse, p[2], q[2]);
+    const double normal = gb_yield_point_ellipse_normal(&ellipse, p[2], q[2]);
     const double exact = atan2(sin(2.3) / 20.0, cos(2.3) / 55.0);
     g_assert_cmpfloat_with_epsilon(normal, exact, 1e-6);
-    g_assert_false(gb_ellipse_fit(&ellipse, p, q, 3, &err));
+    g_assert_false(gb_yield_point_ellipse(&ellipse, p, q, 3, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
 }
 
@@ -149,7 +148,7 @@ static void test_weibull(void)
     for (int i = 0; i < VALUES; i++) {
         value[i] = 30.0 * pow(-log1p(-(i + 0.5) / VALUES), 1.0 / 7.0);
     }
-    g_assert_true(gb_weibull_fit(&law, value, VALUES, &err));
+    g_assert_true(gb_distribution_weibull(&law, value, VALUES, &err));
     g_assert_cmpfloat_with_epsilon(law.modulus, 7.0, 0.05);
     g_assert_cmpfloat_with_epsilon(law.scale, 30.0, 0.02);
     /* asymptotic standard error of the modulus: 0.78 m / sqrt(n) */
@@ -158,9 +157,9 @@ static void test_weibull(void)
     for (int i = 0; i < VALUES; i++) {
         value[i] *= 1e6;
     }
-    g_assert_true(gb_weibull_fit(&scaled, value, VALUES, &err));
+    g_assert_true(gb_distribution_weibull(&scaled, value, VALUES, &err));
     g_assert_cmpfloat_with_epsilon(scaled.modulus, law.modulus, 1e-6);
-    g_assert_false(gb_weibull_fit(&law, value, 2, &err));
+    g_assert_false(gb_distribution_weibull(&law, value, 2, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
 }
 

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "greenbody/snapshot.h"
 #include "io/preset.h"
-#include "measure/observe_die.h"
+#include "measure/observe.h"
 #include "pack/die/bed_record.h"
 #include "pack/die/filling.h"
 #include "solve/loading/die/die_stages.h"

@@ -61,8 +61,8 @@ static void press(struct gb_compact *inside, const struct gb_params *preset, int
     params.tolerance_scale = GB_TOLERANCE_CONTACT;
     g_strlcpy(params.path, "isotropic to density 0.99", sizeof params.path);
     if (!gb_compact_press(&loose, &params, &at_once, NULL, &err) ||
-        gb_compact_follow(&loose, gb_card_paths[options->path].leg,
-                          params.strain_step, &walk, &top, &err) != GB_COMPACT_TAKEN) {
+        gb_compact_follow(&loose, gb_card_paths[options->path].leg, params.strain_step,
+                          &walk, &top, &err) != GB_COMPACT_TAKEN) {
         g_error("%s", err.text);
     }
     top.tolerance = tighter * options->tolerance;
@@ -126,7 +126,7 @@ static struct gb_elastic_averages compare(struct gb_compact *inside)
     by_paths(inside, c);
     const struct gb_elastic_averages mean = gb_elastic_average((const double(*)[6])c);
     gb_elastic_plane((const double(*)[6])c, by_volume, by_shear);
-    g_assert_true(gb_yield_offset_elastic(&plane, by_volume, by_shear));
+    g_assert_true(gb_yield_point_elastic(&plane, by_volume, by_shear));
     const double most = plane.compliance[0][0];
     for (int k = 0; k < 4; k++) {
         const double one = found.plane.compliance[k / 2][k % 2];
@@ -273,8 +273,8 @@ static void strength(double lost[GB_STRENGTH_TESTS], double factor)
             &g_array_index(study.result, struct gb_strength_result, (guint)t);
         lost[t] = result->broken_at_peak;
         g_test_message("%s, tolerance %g: %.2f +- %.2f %% of the bridges lost",
-                       gb_strength_tests[t].name, options.tolerance,
-                       100.0 * lost[t], 100.0 * result->broken_at_peak_error);
+                       gb_strength_tests[t].name, options.tolerance, 100.0 * lost[t],
+                       100.0 * result->broken_at_peak_error);
     }
     gb_strength_finish(&study);
     g_free(directory);

@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "measure/cell_scatter.h"
+#include "measure/average.h"
 #include "tui/session/pressure_rows.h"
 
 enum { LAST = 6 };
@@ -123,17 +123,18 @@ static void test_scatter(void)
     const double listed[][2] = {{250, 0.011}, {1000, 0.006}, {8000, 0.003}};
     for (size_t i = 0; i < G_N_ELEMENTS(listed); i++) {
         params.count = (int64_t)listed[i][0];
-        g_assert_cmpfloat_with_epsilon(gb_cell_scatter(&params), listed[i][1], 0.0005);
+        g_assert_cmpfloat_with_epsilon(gb_average_cell_scatter(&params), listed[i][1],
+                                       0.0005);
     }
     struct gb_params other = params;
     other.dimension = 2;
-    g_assert_true(isnan(gb_cell_scatter(&other)));
+    g_assert_true(isnan(gb_average_cell_scatter(&other)));
     other = params;
     other.structure = GB_STRUCTURE_FCC;
-    g_assert_true(isnan(gb_cell_scatter(&other)));
+    g_assert_true(isnan(gb_average_cell_scatter(&other)));
     other = params;
     other.kind = GB_KIND_DIE;
-    g_assert_true(isnan(gb_cell_scatter(&other)));
+    g_assert_true(isnan(gb_average_cell_scatter(&other)));
 }
 
 int main(int argc, char **argv)

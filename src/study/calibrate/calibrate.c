@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "measure/fit/estimate.h"
+#include "measure/surrogate.h"
 
 /* --- points that were simulated ------------------------------------------------------- */
 
@@ -341,7 +341,8 @@ static bool fit_data(const struct fit *fit, const struct gb_surrogate *seeds,
         data.low[k] = fmax(-1.0, data.least[k]);
         data.high[k] = fmin(1.0, data.most[k]);
     }
-    if (!gb_estimate_fit(&data, &estimate, result->fitted, result->fitted_error, err)) {
+    if (!gb_surrogate_estimate(&data, &estimate, result->fitted, result->fitted_error,
+                               err)) {
         return false;
     }
     set_result(fit, &estimate, result);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "greenbody/status.h"
-#include "measure/fit/surrogate.h"
+#include "measure/surrogate.h"
 
 /* Fits free parameters of a noisy simulation to measured values.
  *

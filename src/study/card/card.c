@@ -20,10 +20,10 @@
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 #include "many/pool.h"
-#include "measure/cap/cap.h"
-#include "measure/cap/cap_fit.h"
-#include "measure/fit/average.h"
-#include "measure/fit/fit.h"
+#include "measure/average.h"
+#include "measure/cap.h"
+#include "measure/cap_fit.h"
+#include "measure/fit.h"
 #include "measure/yield_point.h"
 #include "scene/path/path.h"
 #include "scene/seed.h"
@@ -612,7 +612,7 @@ bool gb_card_fit_values(struct gb_card_values *card, const struct gb_card_cell *
     }
     const struct gb_cap_material material =
         gb_card_fit_material(card, options->levels, options->transition, rows);
-    return gb_cap_path_check(&material, err);
+    return gb_cap_check(&material, err);
 }
 
 /* p_x/p_z and p_z (Pa) of pressing the unloaded first compact along a path, at densities
@@ -638,7 +638,7 @@ static bool card_fit_predict(const struct gb_card_values *card, int levels,
         } else {
             strain[2] = volume;
         }
-        if (!gb_cap_path_strain(&material, &state, strain, err)) {
+        if (!gb_cap_strain(&material, &state, strain, err)) {
             return false;
         }
         ratio[i] = state.pressure[0] / state.pressure[2];

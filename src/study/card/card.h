@@ -8,9 +8,9 @@
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 #include "many/pool.h"
-#include "measure/cap/cap_fit.h"
-#include "measure/cap/cap_path.h"
-#include "measure/fit/fit.h"
+#include "measure/cap.h"
+#include "measure/cap_fit.h"
+#include "measure/fit.h"
 #include "measure/yield_point.h"
 #include "study/compact/compact.h"
 
@@ -52,7 +52,7 @@ struct gb_card_options {
     double press_tolerance; /* numerics.tolerance of pressing ... */
     double tolerance;       /* ... and of unloading and probes */
     double transition;      /* a of the surface */
-    double flow;            /* weight of the directions of flow (measure/cap/cap_fit.h) */
+    double flow;            /* weight of the directions of flow (measure/cap_fit.h) */
 };
 
 void gb_card_options_init(struct gb_card_options *options);

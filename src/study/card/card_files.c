@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/listing.h"
-#include "measure/cap/cap_fit.h"
+#include "measure/cap_fit.h"
 
 GString *gb_card_files_misses(const struct gb_card_study *study)
 {

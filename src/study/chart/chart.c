@@ -25,7 +25,7 @@
 #include "greenbody/status.h"
 #include "io/preset.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 #include "run/experiment.h"
 #include "scene/loading_kind.h"
 #include "scene/model.h"

@@ -15,7 +15,7 @@
 #include "base/alloc.h"
 #include "base/listing.h"
 #include "base/number.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 #include "measure/structure.h"
 #include "pack/cell/particles.h"
 #include "pack/structure/initial_structure.h"

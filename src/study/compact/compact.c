@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "measure/elastic.h"
-#include "measure/yield_offset.h"
+#include "measure/yield_point.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "scene/field/changes.h"
@@ -336,7 +336,7 @@ bool gb_compact_elastic(struct gb_compact_elastic *elastic, struct gb_compact *c
     elastic->shear_modulus = mean.shear;
     gb_elastic_plane((const double(*)[6])moduli.c, by_volume, by_shear);
     if (!(mean.bulk > 0.0) || !(mean.shear > 0.0) ||
-        !gb_yield_offset_elastic(&elastic->plane, by_volume, by_shear)) {
+        !gb_yield_point_elastic(&elastic->plane, by_volume, by_shear)) {
         return gb_error_set(err, GB_ERR_GUARD, "the compact of density %.4f is not stiff",
                             compact->point.density);
     }
@@ -409,7 +409,7 @@ bool gb_compact_probe_point(const struct gb_compact_probe *probe, double offset,
     struct gb_yield_path path;
     double *columns = columns_of(probe, &path);
     const bool reached =
-        gb_yield_offset_find(&path, &probe->elastic, offset, flow_end, point);
+        gb_yield_point_find(&path, &probe->elastic, offset, flow_end, point);
     g_free(columns);
     return reached;
 }

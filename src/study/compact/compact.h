@@ -9,7 +9,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "many/pool.h"
-#include "measure/yield_offset.h"
+#include "measure/yield_point.h"
 #include "scene/field/keep_points.h"
 #include "scene/path/path.h"
 
@@ -128,7 +128,7 @@ bool gb_compact_probe_run(struct gb_compact_probe *probe, struct gb_compact *ins
 void gb_compact_probe_finish(struct gb_compact_probe *probe); /* zeroed is fine */
 
 /* The yield point at an offset of the plastic strain, stresses in Pa, as
- * gb_yield_offset_find.  False: the offset was not reached. */
+ * gb_yield_point_find.  False: the offset was not reached. */
 bool gb_compact_probe_point(const struct gb_compact_probe *probe, double offset,
                             double flow_end, struct gb_yield_point *point);
 

@@ -7,7 +7,7 @@
 
 #include "base/listing.h"
 #include "greenbody/status.h"
-#include "measure/fit/fit.h"
+#include "measure/fit.h"
 
 /* Tables and pages of the studies of compacts. */
 

@@ -9,10 +9,9 @@
 #include "io/preset.h"
 #include "io/state_forces.h"
 #include "many/mean_curves.h"
-#include "measure/fit/average.h"
-#include "measure/fit/power.h"
-#include "measure/hardening.h"
-#include "measure/percolation.h"
+#include "measure/average.h"
+#include "measure/power.h"
+#include "measure/structure.h"
 #include "measure/theory.h"
 #include "run/experiment.h"
 #include "scene/contact_pair.h"
@@ -84,7 +83,8 @@ static double read_percolation(const struct gb_runset_run *run,
         return NAN;
     }
     const struct gb_chain_growth grow = gb_chain_growth_from_model(&model);
-    return gb_percolation_find(&grow, &particles, NULL) ? (double)particles : (double)NAN;
+    return gb_structure_percolation(&grow, &particles, NULL) ? (double)particles
+                                                             : (double)NAN;
 }
 
 /* Column in the first row of the run. */
@@ -202,13 +202,13 @@ double gb_papers_comparisons_difference(const struct gb_papers_view *view,
 static double density_of(const struct gb_hardening *law, int geometry, double pressure_pa)
 {
     double low = law->start;
-    double high = gb_hardening_density_max(law, geometry);
-    if (!(gb_hardening_pressure(law, geometry, high) >= pressure_pa)) {
+    double high = gb_theory_hardening_density_max(law, geometry);
+    if (!(gb_theory_hardening_pressure(law, geometry, high) >= pressure_pa)) {
         return NAN;
     }
     for (int k = 0; k < 60; k++) {
         const double middle = 0.5 * (low + high);
-        if (gb_hardening_pressure(law, geometry, middle) < pressure_pa) {
+        if (gb_theory_hardening_pressure(law, geometry, middle) < pressure_pa) {
             low = middle;
         } else {
             high = middle;
@@ -230,8 +230,8 @@ static bool fit_law(struct gb_hardening *law, const struct gb_runset *set)
     for (size_t i = 0; i < count && good; i++) {
         mpa[i] *= 1e6;
     }
-    good =
-        good && gb_hardening_init(law, GB_GEOMETRY_UNIAXIAL, density, mpa, count, NULL);
+    good = good &&
+           gb_theory_hardening_init(law, GB_GEOMETRY_UNIAXIAL, density, mpa, count, NULL);
     gb_alloc_free(density);
     gb_alloc_free(mpa);
     gb_mean_curves_finish(&curves);
@@ -252,7 +252,7 @@ static double continuum_difference(const struct gb_papers_view *view,
         difference = density_of(&law, GB_GEOMETRY_ISOTROPIC, 1e6 * row->at) -
                      density_of(&law, GB_GEOMETRY_UNIAXIAL, 1e6 * row->at);
     }
-    gb_hardening_finish(&law);
+    gb_theory_hardening_finish(&law);
     g_free(set.run);
     return difference;
 }

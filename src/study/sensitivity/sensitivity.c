@@ -8,7 +8,7 @@
 #include "base/listing.h"
 #include "base/number.h"
 #include "many/param_sweep.h"
-#include "measure/fit/sobol_indices.h"
+#include "measure/surrogate.h"
 
 /* Sensitivities of what a sweep by a design measures: which varied key its figures depend
  * on, apart from the scatter of the cells. */
@@ -83,8 +83,8 @@ static bool add(struct gb_sensitivity *sensitivity, const struct work *work,
     if (!collect(work, &of)) {
         return true;
     }
-    if (gb_sobol_indices_fit(&of.indices, work->sweep->axes.count, ensemble->points,
-                             ensemble->replicas, work->at, work->value, &why)) {
+    if (gb_surrogate_sobol(&of.indices, work->sweep->axes.count, ensemble->points,
+                           ensemble->replicas, work->at, work->value, &why)) {
         sensitivity->item[sensitivity->count++] = of;
         return true;
     }

@@ -4,7 +4,7 @@
 #include <glib.h>
 
 #include "many/param_sweep.h"
-#include "measure/fit/sobol_indices.h"
+#include "measure/surrogate.h"
 
 /* One figure at one pressure. */
 struct gb_sensitivity_item {

@@ -293,7 +293,7 @@ static void conclude_test(struct gb_strength_study *study,
     for (int c = 0; c < cells; c++) {
         strength[c] = broken[c].strength;
     }
-    gb_weibull_fit(&result.weibull, strength, (size_t)cells, &ignored);
+    gb_distribution_weibull(&result.weibull, strength, (size_t)cells, &ignored);
     g_array_append_val(study->result, result);
 }
 

@@ -7,8 +7,8 @@
 #include "base/listing.h"
 #include "greenbody/params.h"
 #include "many/pool.h"
-#include "measure/fit/average.h"
-#include "measure/fit/weibull.h"
+#include "measure/average.h"
+#include "measure/distribution.h"
 #include "scene/field/keep_points.h"
 #include "study/compact/cells.h"
 

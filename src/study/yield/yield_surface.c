@@ -5,8 +5,8 @@
 #include <stddef.h>
 
 #include "base/alloc.h"
-#include "measure/fit/average.h"
-#include "measure/fit/ellipse.h"
+#include "measure/average.h"
+#include "measure/yield_point.h"
 
 enum { MOST = GB_YIELD_DIRECTIONS_MAX };
 
@@ -114,9 +114,9 @@ static void measure_angles(struct summary *summary,
         const struct gb_yield_point *mean = &summary->mean[d];
         const double side = side_of(mean->direction);
         if (counts(data, d)) {
-            summary->angle[d] =
-                difference(atan2(mean->flow_shear, mean->flow_volume),
-                           gb_ellipse_normal(ellipse, mean->p_pa, mean->q_pa));
+            summary->angle[d] = difference(
+                atan2(mean->flow_shear, mean->flow_volume),
+                gb_yield_point_ellipse_normal(ellipse, mean->p_pa, mean->q_pa));
             squares += summary->angle[d] * summary->angle[d];
             count++;
             deviation -= side * summary->angle[d];
@@ -147,7 +147,7 @@ static void fit(struct summary *summary, const struct gb_yield_surface_data *dat
             q[count++] = 1e-6 * summary->mean[d].q_pa;
         }
     }
-    if (!gb_ellipse_fit(&ellipse, p, q, count, &ignored)) {
+    if (!gb_yield_point_ellipse(&ellipse, p, q, count, &ignored)) {
         return;
     }
     ellipse.centre_p *= 1e6;

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/status.h"
-#include "measure/fit/fit.h"
+#include "measure/fit.h"
 #include "measure/yield_point.h"
 #include "scene/field/keep_points.h"
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/units.h"
-#include "measure/cell_scatter.h"
+#include "measure/average.h"
 #include "tui/session/pressure_rows.h"
 
 static const double level_pa[] = {10e6, 50e6, 100e6, 500e6};

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "measure/cell_scatter.h"
+#include "measure/average.h"
 #include "run/quick.h"
 #include "tui/session/previous.h"
 #include "tui/term/paint.h"
@@ -93,7 +93,7 @@ void gb_pressure_rows_list(struct gb_pressure_rows *rows,
 
 static struct gb_pressure_value of_cell(const struct gb_params *params, double density)
 {
-    return (struct gb_pressure_value){density, gb_cell_scatter(params)};
+    return (struct gb_pressure_value){density, gb_average_cell_scatter(params)};
 }
 
 static double of_previous(const struct gb_previous_curve *previous, double pressure_pa)

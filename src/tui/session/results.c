@@ -18,7 +18,7 @@
 #include "io/preset.h"
 #include "io/run_list.h"
 #include "many/compaction_data.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 #include "scene/tolerances.h"
 #include "study/calibrate/calibration.h"
 #include "tui/session/session.h"

@@ -7,7 +7,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "many/compaction_data.h"
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 
 /* The last result of each kind. */
 enum gb_results_kind {

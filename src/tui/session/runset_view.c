@@ -14,7 +14,7 @@
 #include "io/follow.h"
 #include "many/reading.h"
 #include "many/runset.h"
-#include "measure/fit/average.h"
+#include "measure/average.h"
 #include "scene/field/field.h"
 
 /* Files of a directory of many runs. */

@@ -1,10 +1,22 @@
-#ifndef GB_MEASURE_FIT_POWER_H
-#define GB_MEASURE_FIT_POWER_H
+#ifndef GB_MEASURE_POWER_H
+#define GB_MEASURE_POWER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "measure/fit/fit.h"
+#include "greenbody/status.h"
+#include "measure/fit.h"
+
+/* A sum of squares as a function of one exponent, the other parameters solved for. */
+struct gb_exponent_profile {
+    double (*squares)(double exponent, const void *data);
+    const void *data;
+};
+
+/* Where the sum has risen to level on the way from inside (below it) to outside; outside
+ * when it does not. */
+double gb_power_crossing(const struct gb_exponent_profile *profile, double level,
+                         double inside, double outside);
 
 /* Pressure against the rate of compression: P2 (9).  Pressures and rates in any unit; k
  * follows from them. */

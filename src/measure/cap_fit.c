@@ -1,4 +1,4 @@
-#include "measure/cap/cap_fit.h"
+#include "measure/cap_fit.h"
 
 #include <float.h>
 #include <gsl/gsl_blas.h>
@@ -11,8 +11,8 @@
 
 #include "base/alloc.h"
 #include "greenbody/status.h"
-#include "measure/cap/cap.h"
-#include "measure/fit/fit.h"
+#include "measure/cap.h"
+#include "measure/fit.h"
 #include "measure/yield_point.h"
 
 /* The points of one side of a surface, not owned; gb_alloc_free of the list. */

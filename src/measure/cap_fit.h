@@ -1,12 +1,12 @@
-#ifndef GB_MEASURE_CAP_CAP_FIT_H
-#define GB_MEASURE_CAP_CAP_FIT_H
+#ifndef GB_MEASURE_CAP_FIT_H
+#define GB_MEASURE_CAP_FIT_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "greenbody/status.h"
-#include "measure/cap/cap.h"
-#include "measure/fit/fit.h"
+#include "measure/cap.h"
+#include "measure/fit.h"
 #include "measure/yield_point.h"
 
 /* How far the points of one side are from the surface, Pa: along q for shear failure, along

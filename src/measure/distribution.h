@@ -1,5 +1,5 @@
-#ifndef GB_MEASURE_FIT_LOGNORMAL_H
-#define GB_MEASURE_FIT_LOGNORMAL_H
+#ifndef GB_MEASURE_DISTRIBUTION_H
+#define GB_MEASURE_DISTRIBUTION_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -25,7 +25,7 @@ struct gb_lognormal {
 #define GB_LOGNORMAL_REJECTED 0.05
 
 /* Share of the particles between two sizes, 0 <= from < to. */
-double gb_lognormal_share(const struct gb_lognormal *law, double from, double to);
+double gb_distribution_share(const struct gb_lognormal *law, double from, double to);
 
 /* Meaning of the weights of a histogram. */
 enum gb_lognormal_weight {
@@ -41,8 +41,21 @@ enum gb_lognormal_weight {
  * kind       which of the two; shares have no errors and no test
  * Errors: GB_ERR_INPUT (middles, weights, fewer than 3 classes with particles),
  * GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
-bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
-                      const double *weight, size_t count, enum gb_lognormal_weight kind,
-                      struct gb_error *err);
+bool gb_distribution_lognormal(struct gb_lognormal *law, const double *middle,
+                               const double *weight, size_t count,
+                               enum gb_lognormal_weight kind, struct gb_error *err);
+
+/* Strengths by Weibull's law of the weakest link, 1 - exp(-(x/scale)^modulus): maximum
+ * likelihood.  The interval of the modulus holds 95 %: where the profile likelihood falls by
+ * half of the chi-squared quantile of one degree of freedom. */
+struct gb_weibull {
+    double modulus, modulus_low, modulus_high;
+    double scale; /* strength of which 63 % of the bodies fail; unit of the strengths */
+};
+
+/* value: count strengths above 0, not all equal, 3 or more.  Errors: GB_ERR_INPUT,
+ * GB_ERR_NOT_CONVERGED. */
+bool gb_distribution_weibull(struct gb_weibull *law, const double *value, size_t count,
+                             struct gb_error *err);
 
 #endif

@@ -1,9 +1,12 @@
-#include "measure/fit/average.h"
+/* Means of curves and of values: on a common grid, with standard errors and jackknife, and the
+ * scatter of the density from cell to cell. */
+#include "measure/average.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "greenbody/params.h"
 
 /* Abscissae closer than this share of the span count as one. */
 static const double equal_share = 1e-9;
@@ -206,4 +209,17 @@ double gb_average_crossing(const struct gb_average_curve *curve, double level, s
         }
     }
     return (double)NAN;
+}
+
+static const double deviation = 0.0064;
+static const double of_count = 1000.0;
+static const double exponent = 0.4;
+
+double gb_average_cell_scatter(const struct gb_params *params)
+{
+    const bool random = params->structure == GB_STRUCTURE_GROWN;
+    return random && params->kind == GB_KIND_QUASISTATIC && params->dimension == 3 &&
+                   params->from.path[0] == '\0' && params->count > 0
+               ? deviation * pow(of_count / (double)params->count, exponent)
+               : (double)NAN;
 }

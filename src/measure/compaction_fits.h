@@ -1,8 +1,8 @@
-#ifndef GB_MEASURE_FIT_COMPACTION_COMPACTION_FITS_H
-#define GB_MEASURE_FIT_COMPACTION_COMPACTION_FITS_H
+#ifndef GB_MEASURE_COMPACTION_FITS_H
+#define GB_MEASURE_COMPACTION_FITS_H
 
-#include "measure/fit/compaction/equations.h"
-#include "measure/fit/fit.h"
+#include "measure/equations.h"
+#include "measure/fit.h"
 
 /* Least squares of one equation in the relative density, weighted by 1/error^2. */
 struct gb_equation_fit {

@@ -1,6 +1,10 @@
-#include "measure/fit/decay.h"
+/* Fits a relaxation by none, one or two exponentials.  A grid of time constants gives the start
+ * values, the method of Levenberg and Marquardt the fit, an F test the number of terms. */
+#include "measure/fit.h"
 
 #include <float.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <stdbool.h>
@@ -10,15 +14,38 @@
 
 #include "base/alloc.h"
 #include "greenbody/status.h"
-#include "measure/fit/fit.h"
 
-enum { GB_DECAY_START_TERMS = 2 };
+/* One fit of a given number of exponentials; fit.h selects the number. */
+
+/* Time constants beyond this multiple of the span cannot be determined. */
+#define GB_DECAY_TAU_LONGEST 100.0
+
+/* Points in units in which time span and range of pressures are 1. */
+struct decay_points {
+    double *t, *p;
+    size_t count;
+    double t_unit, p_unit, p_shift;
+    double spacing; /* least difference of two times */
+    double floor;   /* sum of squares of rounding alone */
+};
+
+/* Parameters p0, then (amplitude, ln tau) per term with tau ascending. */
+struct decay {
+    int terms;
+    bool converged; /* converged, to time constants within the range of the data */
+    double x[GB_DECAY_PARAMETERS];
+    double covariance[GB_DECAY_PARAMETERS][GB_DECAY_PARAMETERS]; /* of unit variance */
+    double squares;
+    double correlation; /* points per independent point, 1 for independent residuals */
+};
+
+enum { START_TERMS = 2 };
 
 /* Initial values for the fit of exponentials. */
 struct decay_start {
     double p0;
-    double amplitude[GB_DECAY_START_TERMS];
-    double tau[GB_DECAY_START_TERMS]; /* ascending */
+    double amplitude[START_TERMS];
+    double tau[START_TERMS]; /* ascending */
 };
 
 /* Time constants of the grid: from the span / 3000 to the span * 3, a factor of 1.5
@@ -212,7 +239,7 @@ static bool check_points(const double *t, const double *p, size_t count,
 }
 
 /* Fills the scaled copy; its arrays have room for count. */
-static bool scale(struct gb_decay_points *points, const double *t, const double *p,
+static bool scale(struct decay_points *points, const double *t, const double *p,
                   struct gb_error *err)
 {
     const size_t count = points->count;
@@ -242,32 +269,33 @@ static bool scale(struct gb_decay_points *points, const double *t, const double 
     return true;
 }
 
-bool gb_decay_points_init(struct gb_decay_points *points, const double *t,
-                          const double *p, size_t count, struct gb_error *err)
+static void decay_points_finish(struct decay_points *points)
+{
+    gb_alloc_free(points->t);
+    gb_alloc_free(points->p);
+    *points = (struct decay_points){0};
+}
+
+/* Copies and checks.  Errors: GB_ERR_INPUT, GB_ERR_MEMORY; nothing is left to finish. */
+static bool decay_points_init(struct decay_points *points, const double *t,
+                              const double *p, size_t count, struct gb_error *err)
 {
     if (!check_points(t, p, count, err)) {
         return false;
     }
-    *points = (struct gb_decay_points){.count = count};
+    *points = (struct decay_points){.count = count};
     points->t = gb_alloc_array(count, sizeof *points->t, err);
     points->p = gb_alloc_array(count, sizeof *points->p, err);
     const bool good = points->t != NULL && points->p != NULL && scale(points, t, p, err);
     if (!good) {
-        gb_decay_points_finish(points);
+        decay_points_finish(points);
     }
     return good;
 }
 
-void gb_decay_points_finish(struct gb_decay_points *points)
-{
-    gb_alloc_free(points->t);
-    gb_alloc_free(points->p);
-    *points = (struct gb_decay_points){0};
-}
-
 static int residuals(const gsl_vector *x, void *data, gsl_vector *f)
 {
-    const struct gb_decay_points *points = data;
+    const struct decay_points *points = data;
     for (size_t i = 0; i < points->count; i++) {
         double sum = gsl_vector_get(x, 0) - points->p[i];
         for (size_t k = 1; k + 1 < x->size; k += 2) {
@@ -281,7 +309,7 @@ static int residuals(const gsl_vector *x, void *data, gsl_vector *f)
 
 static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
 {
-    const struct gb_decay_points *points = data;
+    const struct decay_points *points = data;
     for (size_t i = 0; i < points->count; i++) {
         gsl_matrix_set(j, i, 0, 1.0);
         for (size_t k = 1; k + 1 < x->size; k += 2) {
@@ -294,7 +322,7 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
     return GSL_SUCCESS;
 }
 
-double gb_decay_correlation(const double *f, size_t n, double mean)
+double gb_fit_correlation(const double *f, size_t n, double mean)
 {
     double square = 0.0;
     double correlation = 1.0;
@@ -314,7 +342,7 @@ double gb_decay_correlation(const double *f, size_t n, double mean)
     return correlation;
 }
 
-static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *work,
+static void take_result(struct decay *found, gsl_multifit_nlinear_workspace *work,
                         gsl_matrix *covariance)
 {
     const gsl_vector *f = gsl_multifit_nlinear_residual(work);
@@ -322,7 +350,7 @@ static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *
     for (size_t i = 0; i < f->size; i++) {
         found->squares += gsl_vector_get(f, i) * gsl_vector_get(f, i);
     }
-    found->correlation = gb_decay_correlation(f->data, f->size, 0.0);
+    found->correlation = gb_fit_correlation(f->data, f->size, 0.0);
     gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work), 0.0, covariance);
     for (size_t a = 0; a < covariance->size1; a++) {
         found->x[a] = gsl_vector_get(gsl_multifit_nlinear_position(work), a);
@@ -333,8 +361,7 @@ static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *
 }
 
 /* A time constant within the range that the data determine. */
-static bool tau_in_range(const struct gb_decay *found,
-                         const struct gb_decay_points *points)
+static bool tau_in_range(const struct decay *found, const struct decay_points *points)
 {
     for (int k = 0; k < found->terms; k++) {
         const double tau = exp(found->x[2 + 2 * k]);
@@ -346,7 +373,7 @@ static bool tau_in_range(const struct gb_decay *found,
 }
 
 /* Levenberg-Marquardt from found->x. */
-static bool iterate(struct gb_decay *found, const struct gb_decay_points *points,
+static bool iterate(struct decay *found, const struct decay_points *points,
                     struct gb_error *err)
 {
     const size_t size = (size_t)(1 + 2 * found->terms);
@@ -379,19 +406,19 @@ static bool iterate(struct gb_decay *found, const struct gb_decay_points *points
     return made;
 }
 
-void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *points)
+static void decay_constant(struct decay *found, const struct decay_points *points)
 {
     const double n = (double)points->count;
     double sum = 0.0;
     for (size_t i = 0; i < points->count; i++) {
         sum += points->p[i];
     }
-    *found = (struct gb_decay){.converged = true, .x = {sum / n}};
+    *found = (struct decay){.converged = true, .x = {sum / n}};
     for (size_t i = 0; i < points->count; i++) {
         found->squares += pow(points->p[i] - found->x[0], 2.0);
     }
     found->covariance[0][0] = 1.0 / n;
-    found->correlation = gb_decay_correlation(points->p, points->count, found->x[0]);
+    found->correlation = gb_fit_correlation(points->p, points->count, found->x[0]);
 }
 
 static void swap_values(double *a, double *b)
@@ -402,7 +429,7 @@ static void swap_values(double *a, double *b)
 }
 
 /* tau1 < tau2, always. */
-static void order_terms(struct gb_decay *found)
+static void order_terms(struct decay *found)
 {
     if (found->terms < 2 || found->x[2] <= found->x[4]) {
         return;
@@ -418,11 +445,12 @@ static void order_terms(struct gb_decay *found)
     }
 }
 
-bool gb_decay_terms(struct gb_decay *found, int terms,
-                    const struct gb_decay_points *points, struct gb_error *err)
+/* terms 1 or 2.  Errors: GB_ERR_MEMORY; a fit that does not settle is no error. */
+static bool decay_terms(struct decay *found, int terms, const struct decay_points *points,
+                        struct gb_error *err)
 {
     struct decay_start start;
-    *found = (struct gb_decay){.terms = terms};
+    *found = (struct decay){.terms = terms};
     if (!decay_start(&start, terms, points->t, points->p, points->count, err)) {
         return false;
     }
@@ -436,4 +464,238 @@ bool gb_decay_terms(struct gb_decay *found, int terms,
     }
     order_terms(found);
     return true;
+}
+
+/* Without an exponential its time constant is undetermined, so the F test finds an exponential
+ * more often than its level says (the parameter exists under one hypothesis only).  The level
+ * is therefore 99 %, while intervals are at 95 %. */
+static const double f_level = 0.99;
+
+static const double interval_level = 0.975; /* two-sided 95 % */
+
+bool gb_fit_settled(int status, int info)
+{
+    return status == GSL_SUCCESS || status == GSL_ENOPROG || info == GSL_ENOPROG;
+}
+
+static int degrees_of(const struct decay *found, const struct decay_points *points)
+{
+    return (int)points->count - 1 - 2 * found->terms;
+}
+
+/* Of the points about the fit. */
+static double scatter_of(const struct decay *found, const struct decay_points *points)
+{
+    return sqrt(found->squares / degrees_of(found, points));
+}
+
+/* Points of a simulation are correlated: one in `stretch` is independent.
+ */
+static double independent_degrees(const struct decay *found,
+                                  const struct decay_points *points)
+{
+    const double independent = (double)points->count / found->correlation;
+    return fmax(independent - 1.0 - 2.0 * found->terms, 1.0);
+}
+
+static double error_of(const struct decay *found, const struct decay_points *points,
+                       int k)
+{
+    return scatter_of(found, points) * sqrt(found->correlation * found->covariance[k][k]);
+}
+
+/* Half the 95 % interval of parameter k. */
+static double half_width(const struct decay *found, const struct decay_points *points,
+                         int k)
+{
+    return gsl_cdf_tdist_Pinv(interval_level, independent_degrees(found, points)) *
+           error_of(found, points, k);
+}
+
+/* Every amplitude differs from zero and every time constant has two bounds. */
+static bool is_certain(const struct decay *found, const struct decay_points *points)
+{
+    for (int k = 0; k < found->terms; k++) {
+        const double amplitude = half_width(found, points, 1 + 2 * k);
+        const double tau = half_width(found, points, 2 + 2 * k);
+        if (!(amplitude < fabs(found->x[1 + 2 * k])) ||
+            !(tau < log(GB_DECAY_TAU_LONGEST))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* F of two more parameters.  A common floor keeps rounding from being significant. */
+static double f_ratio(const struct decay *poor, const struct decay *rich,
+                      const struct decay_points *points)
+{
+    return 0.5 * (poor->squares - rich->squares) /
+           ((rich->squares + points->floor) / degrees_of(rich, points)) /
+           rich->correlation;
+}
+
+static struct gb_fit_value value_of(const struct decay *found,
+                                    const struct decay_points *points, int k, double unit,
+                                    double shift)
+{
+    const double half = half_width(found, points, k);
+    const double error = error_of(found, points, k);
+    return (struct gb_fit_value){.value = shift + unit * found->x[k],
+                                 .error = unit * error,
+                                 .low = shift + unit * (found->x[k] - half),
+                                 .high = shift + unit * (found->x[k] + half)};
+}
+
+static struct gb_fit_value tau_of(const struct decay *found,
+                                  const struct decay_points *points, int k)
+{
+    const struct gb_fit_value logarithm = value_of(found, points, k, 1.0, 0.0);
+    const double tau = points->t_unit * exp(logarithm.value);
+    return (struct gb_fit_value){.value = tau,
+                                 .error = tau * logarithm.error,
+                                 .low = points->t_unit * exp(logarithm.low),
+                                 .high = points->t_unit * exp(logarithm.high)};
+}
+
+static void report(struct gb_fit_decay *fit, const struct decay *found,
+                   const struct decay_points *points)
+{
+    static const struct gb_fit_value none = {(double)NAN, (double)NAN, (double)NAN,
+                                             (double)NAN};
+    fit->terms = found->terms;
+    fit->degrees = degrees_of(found, points);
+    fit->correlation = found->correlation;
+    fit->scatter = points->p_unit * scatter_of(found, points);
+    fit->p0 = value_of(found, points, 0, points->p_unit, points->p_shift);
+    for (int k = 0; k < GB_FIT_TERMS; k++) {
+        const bool there = k < found->terms;
+        fit->amplitude[k] =
+            there ? value_of(found, points, 1 + 2 * k, points->p_unit, 0.0) : none;
+        fit->tau[k] = there ? tau_of(found, points, 2 + 2 * k) : none;
+    }
+}
+
+/* Reason to reject the last exponential of rich; GB_FIT_FULL when there is none. */
+static enum gb_fit_reason objection(const struct decay *poor, const struct decay *rich,
+                                    const struct decay_points *points, double *f,
+                                    double *f_most)
+{
+    *f = f_ratio(poor, rich, points);
+    *f_most = gsl_cdf_fdist_Pinv(f_level, 2.0, independent_degrees(rich, points));
+    if (!(*f > *f_most)) {
+        return GB_FIT_INSIGNIFICANT;
+    }
+    if (!rich->converged) {
+        return GB_FIT_NOT_CONVERGED;
+    }
+    return is_certain(rich, points) ? GB_FIT_FULL : GB_FIT_UNCERTAIN;
+}
+
+/* The fits with 0, 1 and 2 exponentials.  A fit with too few terms leaves residuals that
+ * look correlated, so the least correlation of the three is taken for all. */
+static bool fit_all(struct decay found[GB_FIT_TERMS + 1],
+                    const struct decay_points *points, struct gb_error *err)
+{
+    decay_constant(&found[0], points);
+    double correlation = found[0].correlation;
+    for (int terms = 1; terms <= GB_FIT_TERMS; terms++) {
+        if (!decay_terms(&found[terms], terms, points, err)) {
+            return false;
+        }
+        correlation = fmin(correlation, found[terms].converged ? found[terms].correlation
+                                                               : correlation);
+    }
+    for (int terms = 0; terms <= GB_FIT_TERMS; terms++) {
+        found[terms].correlation = correlation;
+    }
+    return true;
+}
+
+/* Removes exponentials that the data do not support. */
+static bool choose(struct gb_fit_decay *fit, const struct decay_points *points,
+                   struct gb_error *err)
+{
+    struct decay found[GB_FIT_TERMS + 1];
+    if (!fit_all(found, points, err)) {
+        return false;
+    }
+    int terms = GB_FIT_TERMS;
+    fit->reason = GB_FIT_FULL;
+    while (terms > 0) {
+        double f = 0.0;
+        double f_most = 0.0;
+        const enum gb_fit_reason against =
+            objection(&found[terms - 1], &found[terms], points, &f, &f_most);
+        if (against != GB_FIT_FULL || terms == GB_FIT_TERMS) {
+            fit->f = f;
+            fit->f_most = f_most;
+        }
+        if (against == GB_FIT_FULL) {
+            break;
+        }
+        fit->reason = (int)against;
+        terms--;
+    }
+    if (terms == 0 && fit->reason == GB_FIT_NOT_CONVERGED) {
+        return gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                            "the fit of an exponential did not settle in %d iterations: "
+                            "the points show no time constant between their spacing and "
+                            "their span",
+                            GB_DECAY_ITERATIONS);
+    }
+    report(fit, &found[terms], points);
+    return true;
+}
+
+bool gb_fit_decay(struct gb_fit_decay *fit, const double *t, const double *p,
+                  size_t count, struct gb_error *err)
+{
+    struct decay_points points;
+    if (!decay_points_init(&points, t, p, count, err)) {
+        return false;
+    }
+    const bool good = choose(fit, &points, err);
+    decay_points_finish(&points);
+    return good;
+}
+
+double gb_fit_decay_at(const struct gb_fit_decay *fit, double t)
+{
+    double p = fit->p0.value;
+    for (int k = 0; k < fit->terms; k++) {
+        p += fit->amplitude[k].value * exp(-t / fit->tau[k].value);
+    }
+    return p;
+}
+
+double gb_fit_decay_fall(const struct gb_fit_decay *fit)
+{
+    double fall = 0.0;
+    for (int i = 0; i < fit->terms; i++) {
+        fall += fit->amplitude[i].value;
+    }
+    return fall > 0.0 ? fall : (double)NAN;
+}
+
+double gb_fit_decay_efold(const struct gb_fit_decay *fit)
+{
+    const double level = fit->p0.value + gb_fit_decay_fall(fit) / M_E;
+    if (!isfinite(level)) {
+        return NAN;
+    }
+    double low = 0.0;
+    double high = fit->tau[fit->terms - 1].value;
+    while (gb_fit_decay_at(fit, high) > level) { /* p may rise at first */
+        high *= 2.0;
+    }
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (gb_fit_decay_at(fit, middle) > level) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
 }

@@ -1,10 +1,78 @@
-#include "measure/cap/cap_path.h"
+/* The Drucker-Prager cap: its surface and flow (cap.h), and the rate law of a material on it.
+ * A step predicts elastically and returns to the surface along the plastic flow. */
+#include "measure/cap.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 
+#include "greenbody/status.h"
 #include "scene/tolerances.h"
+
+double gb_cap_depth(const struct gb_cap *cap)
+{
+    return cap->d + cap->p_a * tan(cap->beta);
+}
+
+double gb_cap_flattening(const struct gb_cap *cap)
+{
+    return 1.0 + cap->a - cap->a / cos(cap->beta);
+}
+
+double gb_cap_tangent(const struct gb_cap *cap)
+{
+    return cap->p_a - cap->a * gb_cap_depth(cap) * sin(cap->beta);
+}
+
+double gb_cap_end(const struct gb_cap *cap)
+{
+    return cap->p_a + cap->r * gb_cap_depth(cap);
+}
+
+struct gb_cap gb_cap_with_end(const struct gb_cap *cap, double p_b)
+{
+    struct gb_cap moved = *cap;
+    moved.p_a = (p_b - cap->r * cap->d) / (1.0 + cap->r * tan(cap->beta));
+    return moved;
+}
+
+double gb_cap_apex(const struct gb_cap *cap)
+{
+    return cap->beta > 0.0 ? -cap->d / tan(cap->beta) : -INFINITY;
+}
+
+double gb_cap_height(const struct gb_cap *cap, double p)
+{
+    const double depth = gb_cap_depth(cap);
+    const double off = p - cap->p_a;
+    if (p <= gb_cap_tangent(cap)) {
+        return cap->d + p * tan(cap->beta);
+    }
+    if (p <= cap->p_a) {
+        const double radius = cap->a * depth;
+        return (1.0 - cap->a / cos(cap->beta)) * depth +
+               sqrt(fmax(0.0, radius * radius - off * off));
+    }
+    const double reach = cap->r * depth;
+    const double left = reach * reach - off * off;
+    return left > 0.0 ? gb_cap_flattening(cap) / cap->r * sqrt(left) : reach - off;
+}
+
+void gb_cap_flow(const struct gb_cap *cap, double p, double q, double *volume,
+                 double *shear)
+{
+    const double k = gb_cap_flattening(cap), off = p - cap->p_a;
+    if (off > 0.0) {
+        *volume = off;
+        *shear = cap->r * cap->r / (k * k) * q;
+    } else {
+        const double slope = tan(cap->beta);
+        *volume = slope * slope * off;
+        *shear = q / (k * k);
+    }
+}
 
 enum { COMPONENTS = 6, AXES = 3, ROUNDS = 200 };
 
@@ -29,14 +97,14 @@ struct search {
     try_return *attempt;
 };
 
-double gb_cap_path_mean(const double pressure[6])
+double gb_cap_mean(const double pressure[6])
 {
     return (pressure[0] + pressure[1] + pressure[2]) / AXES;
 }
 
-double gb_cap_path_deviator(const double pressure[6])
+double gb_cap_deviator(const double pressure[6])
 {
-    const double p = gb_cap_path_mean(pressure);
+    const double p = gb_cap_mean(pressure);
     double sum = 0.0;
     for (int k = 0; k < AXES; k++) {
         sum += (pressure[k] - p) * (pressure[k] - p) +
@@ -79,8 +147,8 @@ static double hardened(const struct gb_cap_material *material, double plastic_vo
                        (row[k + 1].plastic_volume - row[k].plastic_volume));
 }
 
-struct gb_cap_row gb_cap_path_at(const struct gb_cap_material *material, double density,
-                                 double plastic_volume)
+struct gb_cap_row gb_cap_at(const struct gb_cap_material *material, double density,
+                            double plastic_volume)
 {
     const struct gb_cap_row *row = material->row;
     size_t k = 0;
@@ -105,7 +173,7 @@ static bool row_is_good(const struct gb_cap_row *row)
            row->cap.beta < M_PI_2 && row->p_b > 0.0 && gb_cap_flattening(&row->cap) > 0.0;
 }
 
-bool gb_cap_path_check(const struct gb_cap_material *material, struct gb_error *err)
+bool gb_cap_check(const struct gb_cap_material *material, struct gb_error *err)
 {
     for (size_t i = 0; i < material->count; i++) {
         const struct gb_cap_row *row = &material->row[i];
@@ -208,8 +276,8 @@ static struct prediction predict(const struct gb_cap_material *material,
                                  const double strain[COMPONENTS], double share)
 {
     const double volume = (strain[0] + strain[1] + strain[2]) * share;
-    const struct gb_cap_row half = gb_cap_path_at(
-        material, state->density * exp(0.5 * volume), state->plastic_volume);
+    const struct gb_cap_row half =
+        gb_cap_at(material, state->density * exp(0.5 * volume), state->plastic_volume);
     for (int k = 0; k < AXES; k++) {
         state->pressure[k] +=
             half.bulk * volume +
@@ -217,15 +285,14 @@ static struct prediction predict(const struct gb_cap_material *material,
         state->pressure[k + AXES] += half.shear_modulus * strain[k + AXES] * share;
     }
     state->density *= exp(volume);
-    struct gb_cap_row now =
-        gb_cap_path_at(material, state->density, state->plastic_volume);
+    struct gb_cap_row now = gb_cap_at(material, state->density, state->plastic_volume);
     now.bulk = half.bulk;
     now.shear_modulus = half.shear_modulus;
     return (struct prediction){.material = material,
                                .now = now,
                                .plastic_volume = state->plastic_volume,
-                               .p = gb_cap_path_mean(state->pressure),
-                               .q = gb_cap_path_deviator(state->pressure)};
+                               .p = gb_cap_mean(state->pressure),
+                               .q = gb_cap_deviator(state->pressure)};
 }
 
 /* Pressures with the same principal directions and another p and q. */
@@ -241,9 +308,8 @@ static void move(struct gb_cap_state *state, const struct prediction *from,
     state->plastic_shear += end->shear;
 }
 
-bool gb_cap_path_strain(const struct gb_cap_material *material,
-                        struct gb_cap_state *state, const double strain[6],
-                        struct gb_error *err)
+bool gb_cap_strain(const struct gb_cap_material *material, struct gb_cap_state *state,
+                   const double strain[6], struct gb_error *err)
 {
     double largest = 0.0;
     for (int k = 0; k < COMPONENTS; k++) {

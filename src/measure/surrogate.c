@@ -1,14 +1,167 @@
-#include "measure/fit/estimate.h"
+/* Polynomials in place of the simulation near a point, and what is computed with them: the best
+ * fit to data, and Sobol indices. */
+#include "measure/surrogate.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multimin.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "measure/fit/average.h"
-#include "measure/fit/exponent_profile.h"
+#include "greenbody/status.h"
+#include "measure/average.h"
+#include "measure/power.h"
+
+/* Singular values below this share of the greatest mean that points lie in a plane. */
+static const double least_share = 1e-7;
+
+size_t gb_surrogate_terms(size_t variables, enum gb_surrogate_order order)
+{
+    return 1 + variables +
+           (order == GB_SURROGATE_QUADRATIC ? variables * (variables + 1) / 2 : 0);
+}
+
+/* 1, x_i, x_i x_j with i <= j. */
+static void fill_terms(const double *at, size_t variables, size_t terms, double *term)
+{
+    size_t next = 0;
+    term[next++] = 1.0;
+    for (size_t i = 0; i < variables; i++) {
+        term[next++] = at[i];
+    }
+    for (size_t i = 0; i < variables && next < terms; i++) {
+        for (size_t j = i; j < variables; j++) {
+            term[next++] = at[i] * at[j];
+        }
+    }
+}
+
+/* What GSL needs for one fit. */
+struct bench {
+    gsl_multifit_linear_workspace *space;
+    gsl_matrix *design, *covariance;
+    gsl_vector *y, *c;
+};
+
+static void finish_bench(struct bench *bench)
+{
+    if (bench->space != NULL) {
+        gsl_multifit_linear_free(bench->space);
+    }
+    gsl_matrix_free(bench->design);
+    gsl_matrix_free(bench->covariance);
+    gsl_vector_free(bench->y);
+    gsl_vector_free(bench->c);
+}
+
+static bool init_bench(struct bench *bench, size_t points, size_t terms)
+{
+    bench->space = gsl_multifit_linear_alloc(points, terms);
+    bench->design = gsl_matrix_alloc(points, terms);
+    bench->covariance = gsl_matrix_alloc(terms, terms);
+    bench->y = gsl_vector_alloc(points);
+    bench->c = gsl_vector_alloc(terms);
+    return bench->space && bench->design && bench->covariance && bench->y && bench->c;
+}
+
+static bool fit_output(struct gb_surrogate *surrogate, struct bench *bench, size_t output,
+                       const double *value, size_t points)
+{
+    double squares = 0.0;
+    size_t rank = 0;
+    for (size_t p = 0; p < points; p++) {
+        gsl_vector_set(bench->y, p, value[p * surrogate->outputs + output]);
+    }
+    const int status =
+        gsl_multifit_linear_tsvd(bench->design, bench->y, least_share, bench->c,
+                                 bench->covariance, &squares, &rank, bench->space);
+    for (size_t t = 0; t < surrogate->terms; t++) {
+        surrogate->coefficient[output * surrogate->terms + t] =
+            gsl_vector_get(bench->c, t);
+    }
+    return status == 0 && rank == surrogate->terms;
+}
+
+bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t outputs,
+                      enum gb_surrogate_order order, const double *at,
+                      const double *value, size_t points, struct gb_error *err)
+{
+    const size_t terms = gb_surrogate_terms(variables, order);
+    *surrogate = (struct gb_surrogate){variables, outputs, terms, NULL};
+    if (points < terms) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%zu points for a polynomial of %zu terms: too few", points,
+                            terms);
+    }
+    struct bench bench = {0};
+    surrogate->coefficient =
+        gb_alloc_array(outputs * terms, sizeof *surrogate->coefficient, err);
+    bool good = surrogate->coefficient != NULL;
+    if (good && !init_bench(&bench, points, terms)) {
+        good = gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
+    }
+    for (size_t p = 0; p < points && good; p++) {
+        double term[GB_SURROGATE_TERMS];
+        fill_terms(at + p * variables, variables, terms, term);
+        for (size_t t = 0; t < terms; t++) {
+            gsl_matrix_set(bench.design, p, t, term[t]);
+        }
+    }
+    for (size_t o = 0; o < outputs && good; o++) {
+        good = fit_output(surrogate, &bench, o, value, points) ||
+               gb_error_set(err, GB_ERR_INPUT,
+                            "the points do not determine the %zu terms of a polynomial",
+                            terms);
+    }
+    finish_bench(&bench);
+    if (!good) {
+        gb_surrogate_finish(surrogate);
+    }
+    return good;
+}
+
+void gb_surrogate_finish(struct gb_surrogate *surrogate)
+{
+    gb_alloc_free(surrogate->coefficient);
+    *surrogate = (struct gb_surrogate){0};
+}
+
+void gb_surrogate_value(const struct gb_surrogate *surrogate, const double *at,
+                        double *value)
+{
+    double term[GB_SURROGATE_TERMS];
+    fill_terms(at, surrogate->variables, surrogate->terms, term);
+    for (size_t o = 0; o < surrogate->outputs; o++) {
+        const double *c = surrogate->coefficient + o * surrogate->terms;
+        value[o] = 0.0;
+        for (size_t t = 0; t < surrogate->terms; t++) {
+            value[o] += c[t] * term[t];
+        }
+    }
+}
+
+void gb_surrogate_slope(const struct gb_surrogate *surrogate, const double *at,
+                        double *slope)
+{
+    const size_t n = surrogate->variables;
+    for (size_t o = 0; o < surrogate->outputs; o++) {
+        const double *c = surrogate->coefficient + o * surrogate->terms;
+        size_t next = 1 + n;
+        for (size_t i = 0; i < n; i++) {
+            slope[o * n + i] = c[1 + i];
+        }
+        for (size_t i = 0; i < n && next < surrogate->terms; i++) {
+            for (size_t j = i; j < n; j++, next++) { /* i = j: both contributions */
+                slope[o * n + i] += c[next] * at[j];
+                slope[o * n + j] += c[next] * at[i];
+            }
+        }
+    }
+}
 
 enum { VARIABLES = GB_SURROGATE_VARIABLES, ITERATIONS = 2000 };
 
@@ -378,7 +531,7 @@ static double find_end(const struct profile *profile, double half, double box,
     const double linear = box > at ? at + half : at - half;
     const struct gb_exponent_profile crossing = {squares_at, profile};
     if (box != at && squares_at(box, profile) > half * half) {
-        return gb_exponent_profile_crossing(&crossing, half * half, at, box);
+        return gb_power_crossing(&crossing, half * half, at, box);
     }
     return limit < at ? fmax(fmin(linear, box), limit) : fmin(fmax(linear, box), limit);
 }
@@ -436,9 +589,9 @@ static bool alloc_fit(struct fit *fit, struct gb_error *err)
     return true;
 }
 
-bool gb_estimate_fit(const struct gb_estimate_problem *problem,
-                     struct gb_estimate *estimate, double *fitted, double *fitted_error,
-                     struct gb_error *err)
+bool gb_surrogate_estimate(const struct gb_estimate_problem *problem,
+                           struct gb_estimate *estimate, double *fitted,
+                           double *fitted_error, struct gb_error *err)
 {
     struct fit fit = {.problem = problem};
     double effect[VARIABLES], half[VARIABLES];
@@ -476,5 +629,248 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
         good = set_intervals(&fit, least, half, estimate, err);
     }
     gb_alloc_free(fit.mean);
+    return good;
+}
+
+enum { TERMS = GB_SURROGATE_TERMS, JACKKNIFE_MIN = 3 };
+
+/* Variances over -1 to 1 of x, x^2 and x y. */
+static const double of_x = 1.0 / 3.0;
+static const double of_square = 4.0 / 45.0;
+static const double of_product = 1.0 / 9.0;
+
+struct work {
+    size_t variables, points, seeds, terms;
+    const double *at, *value;
+    double *coefficient; /* fitted seeds x terms */
+    size_t *seed;        /* which they are */
+    size_t fitted;
+    double *x, *y; /* of one fit: points x variables, points */
+};
+
+static bool open_work(struct work *work, struct gb_error *err)
+{
+    work->coefficient = gb_alloc_array(work->seeds * work->terms, sizeof(double), err);
+    work->seed = gb_alloc_array(work->seeds, sizeof *work->seed, err);
+    work->x = gb_alloc_array(work->points * work->variables, sizeof(double), err);
+    work->y = gb_alloc_array(work->points, sizeof(double), err);
+    return work->coefficient && work->seed && work->x && work->y;
+}
+
+static void close_work(struct work *work)
+{
+    gb_alloc_free(work->coefficient);
+    gb_alloc_free(work->seed);
+    gb_alloc_free(work->x);
+    gb_alloc_free(work->y);
+}
+
+static size_t collect(const struct work *work, size_t seed)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < work->points; p++) {
+        const double y = work->value[p * work->seeds + seed];
+        if (isnan(y)) {
+            continue;
+        }
+        for (size_t k = 0; k < work->variables; k++) {
+            work->x[count * work->variables + k] = work->at[p * work->variables + k];
+        }
+        work->y[count++] = y;
+    }
+    return count;
+}
+
+/* Seeds with too few values are left out. */
+static bool fit_seed(struct work *work, size_t seed, struct gb_error *why)
+{
+    struct gb_surrogate surrogate;
+    const size_t count = collect(work, seed);
+    if (!gb_surrogate_fit(&surrogate, work->variables, 1, GB_SURROGATE_QUADRATIC, work->x,
+                          work->y, count, why)) {
+        return why->code == GB_ERR_INPUT;
+    }
+    for (size_t t = 0; t < work->terms; t++) {
+        work->coefficient[work->fitted * work->terms + t] = surrogate.coefficient[t];
+    }
+    work->seed[work->fitted++] = seed;
+    gb_surrogate_finish(&surrogate);
+    return true;
+}
+
+static bool fit_seeds(struct work *work, struct gb_error *err)
+{
+    struct gb_error why = {0};
+    for (size_t s = 0; s < work->seeds; s++) {
+        if (!fit_seed(work, s, &why)) {
+            return gb_error_set(err, why.code, "%s", why.text);
+        }
+    }
+    return work->fitted > 0 || gb_error_set(err, why.code, "%s", why.text);
+}
+
+/* Mean of a coefficient over the fitted seeds but `left_out`, and its square without what
+ * the scatter of the seeds adds to it. */
+static double mean_of(const struct work *work, size_t term, size_t left_out,
+                      double *square)
+{
+    double sum = 0.0, squares = 0.0;
+    size_t n = 0;
+    for (size_t s = 0; s < work->fitted; s++) {
+        if (s != left_out) {
+            sum += work->coefficient[s * work->terms + term];
+            n++;
+        }
+    }
+    const double mean = sum / (double)n;
+    for (size_t s = 0; s < work->fitted; s++) {
+        const double off = work->coefficient[s * work->terms + term] - mean;
+        squares += s != left_out ? off * off : 0.0;
+    }
+    const double count = (double)n;
+    *square = mean * mean - (n > 1 ? squares / (count * (count - 1.0)) : 0.0);
+    return mean;
+}
+
+struct shares {
+    double mean, variance;
+    double first[VARIABLES], total[VARIABLES];
+};
+
+/* The parts of the variance; left_out = fitted: none. */
+static struct shares share(const struct work *work, size_t left_out)
+{
+    struct shares shares = {0};
+    const size_t n = work->variables;
+    double square = 0.0;
+    size_t term = 1 + n;
+    shares.mean = mean_of(work, 0, left_out, &square);
+    for (size_t i = 0; i < n; i++) {
+        (void)mean_of(work, 1 + i, left_out, &square);
+        shares.first[i] = of_x * square;
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i; j < n; j++, term++) {
+            const double mean = mean_of(work, term, left_out, &square);
+            if (i == j) {
+                shares.mean += mean / 3.0;
+                shares.first[i] += of_square * square;
+                continue;
+            }
+            shares.variance += of_product * square;
+            shares.total[i] += of_product * square;
+            shares.total[j] += of_product * square;
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        shares.total[i] += shares.first[i];
+        shares.variance += shares.first[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        shares.first[i] = shares.variance > 0.0 ? shares.first[i] / shares.variance : NAN;
+        shares.total[i] = shares.variance > 0.0 ? shares.total[i] / shares.variance : NAN;
+    }
+    return shares;
+}
+
+static bool fill_errors(const struct work *work, struct gb_sobol_indices *indices,
+                        struct gb_error *err)
+{
+    double *without = gb_alloc_array(2 * work->fitted, sizeof *without, err);
+    if (without == NULL) {
+        return false;
+    }
+    for (size_t k = 0; k < work->variables; k++) {
+        for (size_t s = 0; s < work->fitted; s++) {
+            const struct shares shares = share(work, s);
+            without[s] = shares.first[k];
+            without[work->fitted + s] = shares.total[k];
+        }
+        const bool known = work->fitted >= JACKKNIFE_MIN;
+        indices->first_error[k] =
+            known ? gb_average_jackknife(without, work->fitted) : NAN;
+        indices->total_error[k] =
+            known ? gb_average_jackknife(without + work->fitted, work->fitted) : NAN;
+    }
+    gb_alloc_free(without);
+    return true;
+}
+
+static double residual(const struct work *work, size_t point, size_t fit)
+{
+    struct gb_surrogate surrogate = {work->variables, 1, work->terms,
+                                     work->coefficient + fit * work->terms};
+    double fitted = 0.0;
+    gb_surrogate_value(&surrogate, work->at + point * work->variables, &fitted);
+    return work->value[point * work->seeds + work->seed[fit]] - fitted;
+}
+
+/* Over the points that all fitted seeds have: the mean square of the seeds' mean residual
+ * less what their scatter gives it, per degree of freedom, and the variance between
+ * seeds. */
+static void fill_scatter(const struct work *work, double variance,
+                         struct gb_sobol_indices *indices)
+{
+    double lack = 0.0, noise = 0.0, between = 0.0;
+    const double n = (double)work->fitted;
+    size_t points = 0;
+    for (size_t p = 0; p < work->points; p++) {
+        double r = 0.0, rr = 0.0, y = 0.0, yy = 0.0;
+        for (size_t s = 0; s < work->fitted; s++) {
+            const double value =
+                work->value[p * work->seeds + work->seed[s]] - indices->mean;
+            const double off = residual(work, p, s);
+            r += off;
+            rr += off * off;
+            y += value;
+            yy += value * value;
+        }
+        if (isnan(r)) {
+            continue;
+        }
+        points++;
+        lack += r / n * (r / n);
+        noise += (rr - r * r / n) / n;
+        between += yy - y * y / n;
+    }
+    const double freedom = (double)points - (double)work->terms;
+    if (work->fitted > 1) {
+        lack -= noise / (n - 1.0);
+        indices->seed_sd = sqrt(between / ((n - 1.0) * (double)points));
+    }
+    lack = fmax(lack, 0.0) / freedom;
+    indices->unexplained = freedom > 0.0 ? lack / (lack + fmax(variance, 0.0)) : NAN;
+}
+
+static bool fill(const struct work *work, struct gb_sobol_indices *indices,
+                 struct gb_error *err)
+{
+    const struct shares all = share(work, work->fitted);
+    indices->seeds = work->fitted;
+    indices->mean = all.mean;
+    indices->range_sd = sqrt(fmax(all.variance, 0.0));
+    indices->seed_sd = NAN;
+    for (size_t k = 0; k < work->variables; k++) {
+        indices->first[k] = all.first[k];
+        indices->total[k] = all.total[k];
+    }
+    fill_scatter(work, all.variance, indices);
+    return fill_errors(work, indices, err);
+}
+
+bool gb_surrogate_sobol(struct gb_sobol_indices *indices, size_t variables, size_t points,
+                        size_t seeds, const double *at, const double *value,
+                        struct gb_error *err)
+{
+    struct work work = {.variables = variables,
+                        .points = points,
+                        .seeds = seeds,
+                        .terms = gb_surrogate_terms(variables, GB_SURROGATE_QUADRATIC),
+                        .at = at,
+                        .value = value};
+    *indices = (struct gb_sobol_indices){0};
+    const bool good =
+        open_work(&work, err) && fit_seeds(&work, err) && fill(&work, indices, err);
+    close_work(&work);
     return good;
 }

@@ -3,7 +3,7 @@
  * Each equation has a density rho(p), its slope by the parameters, and start values for a fit.
  * The table at the end has one row for each, with its source. */
 
-#include "measure/fit/compaction/equations.h"
+#include "measure/equations.h"
 
 #include <math.h>
 #include <string.h>

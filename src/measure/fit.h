@@ -1,5 +1,5 @@
-#ifndef GB_MEASURE_FIT_FIT_H
-#define GB_MEASURE_FIT_FIT_H
+#ifndef GB_MEASURE_FIT_H
+#define GB_MEASURE_FIT_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,6 +12,14 @@ struct gb_fit_value {
     double low, high;
 };
 
+enum { GB_FIT_TERMS = 2, GB_FIT_DECAY_POINTS = 8 };
+
+enum { GB_DECAY_PARAMETERS = 1 + 2 * GB_FIT_TERMS, GB_DECAY_ITERATIONS = 100 };
+
+/* Integral of the autocorrelation of n residuals less their mean: points per
+ * independent point.  Summed up to the first value near 0; white noise gives 1. */
+double gb_fit_correlation(const double *f, size_t n, double mean);
+
 /* Why a relaxation is described by fewer than two exponentials. */
 enum gb_fit_reason {
     GB_FIT_FULL,          /* two exponentials */
@@ -19,8 +27,6 @@ enum gb_fit_reason {
     GB_FIT_UNCERTAIN,     /* an interval of the richer fit contains 0 or is unbounded */
     GB_FIT_NOT_CONVERGED  /* the iteration of the richer fit did not converge */
 };
-
-enum { GB_FIT_TERMS = 2, GB_FIT_DECAY_POINTS = 8 };
 
 /* p(t) = p0 + sum of amplitude[i] exp(-t / tau[i]), P2 (4), with tau[0] < tau[1]. */
 struct gb_fit_decay {

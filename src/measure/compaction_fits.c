@@ -1,4 +1,4 @@
-#include "measure/fit/compaction/compaction_fits.h"
+#include "measure/compaction_fits.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_multifit_nlinear.h>
@@ -6,10 +6,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "measure/fit/average.h"
-#include "measure/fit/compaction/equations.h"
-#include "measure/fit/decay.h"
-#include "measure/fit/fit.h"
+#include "measure/average.h"
+#include "measure/equations.h"
+#include "measure/fit.h"
 
 /* Least squares of a compaction equation, and the intervals of its parameters.
  *
@@ -360,7 +359,7 @@ static bool set_scatter(struct gb_equation_fit *fit,
         residual[i] = off * sqrt(gb_equations_weight(points, i));
     }
     fit->rms = sqrt(sum / n);
-    fit->correlation = gb_decay_correlation(residual, points->count, 0.0);
+    fit->correlation = gb_fit_correlation(residual, points->count, 0.0);
     gb_alloc_free(residual);
     const double least =
         points->error != NULL ? 1.0 : equation_fit_rounding * equation_fit_rounding;

@@ -1,5 +1,5 @@
-#ifndef GB_MEASURE_FIT_COMPACTION_EQUATIONS_H
-#define GB_MEASURE_FIT_COMPACTION_EQUATIONS_H
+#ifndef GB_MEASURE_EQUATIONS_H
+#define GB_MEASURE_EQUATIONS_H
 
 #include <stdbool.h>
 #include <stddef.h>

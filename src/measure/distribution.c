@@ -1,8 +1,15 @@
-#include "measure/fit/lognormal.h"
+/* Laws of random quantities: the log-normal law of sizes, and the Weibull law of strengths. */
+#include "measure/distribution.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_multimin.h>
+#include <gsl/gsl_roots.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
 
 enum { ITERATIONS = 2000, CLASSES_LEAST = 3 };
 
@@ -22,7 +29,7 @@ struct histogram {
     double total;
 };
 
-double gb_lognormal_share(const struct gb_lognormal *law, double from, double to)
+double gb_distribution_share(const struct gb_lognormal *law, double from, double to)
 {
     const double low = from > 0.0 ? (log(from) - law->m) / law->sigma : -INFINITY;
     const double high = (log(to) - law->m) / law->sigma;
@@ -49,8 +56,8 @@ static double misfit(const struct histogram *histogram, double m, double ln_sigm
     double sum = 0.0;
     for (size_t i = 0; i < histogram->count; i++) {
         if (histogram->weight[i] > 0.0) {
-            const double share =
-                gb_lognormal_share(&law, border(histogram, i), border(histogram, i + 1));
+            const double share = gb_distribution_share(&law, border(histogram, i),
+                                                       border(histogram, i + 1));
             sum -= histogram->weight[i] * log(fmax(share, share_least));
         }
     }
@@ -172,7 +179,7 @@ static void set_chi_squared(const struct histogram *histogram, struct gb_lognorm
         const double from = i > 0 ? border(histogram, i) : 0.0;
         const double to = i + 1 < histogram->count ? border(histogram, i + 1) : INFINITY;
         observed += histogram->weight[i];
-        expected += histogram->total * gb_lognormal_share(law, from, to);
+        expected += histogram->total * gb_distribution_share(law, from, to);
         if (expected >= expected_least) {
             classes++;
             last = (observed - expected) * (observed - expected) / expected;
@@ -196,14 +203,15 @@ static void set_distance(const struct histogram *histogram, struct gb_lognormal 
     double below = 0.0;
     for (size_t i = 0; i + 1 < histogram->count; i++) {
         below += histogram->weight[i] / histogram->total;
-        const double off = below - gb_lognormal_share(law, 0.0, border(histogram, i + 1));
+        const double off =
+            below - gb_distribution_share(law, 0.0, border(histogram, i + 1));
         law->distance = fmax(law->distance, fabs(off));
     }
 }
 
-bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
-                      const double *weight, size_t count, enum gb_lognormal_weight kind,
-                      struct gb_error *err)
+bool gb_distribution_lognormal(struct gb_lognormal *law, const double *middle,
+                               const double *weight, size_t count,
+                               enum gb_lognormal_weight kind, struct gb_error *err)
 {
     struct histogram histogram = {middle, weight, count, 0.0};
     *law = (struct gb_lognormal){.m_error = NAN,
@@ -220,4 +228,107 @@ bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
         set_chi_squared(&histogram, law);
     }
     return true;
+}
+
+enum { WEIBULL_ITERATIONS = 200 };
+
+/* Moduli that are looked for. */
+static const double modulus_min = 1e-3, modulus_max = 1e5;
+
+struct sample {
+    const double *value;
+    size_t count;
+    double mean_log; /* of the values over the largest one */
+    double largest, level;
+};
+
+/* Mean of x^m and of x^m ln x, x the value over the largest one. */
+static void moments(const struct sample *sample, double m, double *power,
+                    double *weighted)
+{
+    *power = *weighted = 0.0;
+    for (size_t i = 0; i < sample->count; i++) {
+        const double log_x = log(sample->value[i] / sample->largest);
+        *power += exp(m * log_x) / (double)sample->count;
+        *weighted += exp(m * log_x) * log_x / (double)sample->count;
+    }
+}
+
+/* Derivative of the profile likelihood per value. */
+static double slope(double m, void *data)
+{
+    const struct sample *sample = data;
+    double power, weighted;
+    moments(sample, m, &power, &weighted);
+    return 1.0 / m + sample->mean_log - weighted / power;
+}
+
+/* Logarithm of the likelihood, the scale at its best, less the level. */
+static double profile(double m, void *data)
+{
+    const struct sample *sample = data;
+    double power, weighted;
+    moments(sample, m, &power, &weighted);
+    return (double)sample->count * (log(m) - log(power) + (m - 1.0) * sample->mean_log) -
+           sample->level;
+}
+
+/* Root between two moduli at which the function has two signs. */
+static bool find_root(double (*function)(double m, void *data), struct sample *sample,
+                      double low, double high, double *root)
+{
+    gsl_function f = {function, sample};
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    bool good =
+        solver != NULL && gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS;
+    int status = GSL_CONTINUE;
+    for (int i = 0; good && status == GSL_CONTINUE && i < WEIBULL_ITERATIONS; i++) {
+        good = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS;
+        status = gsl_root_test_interval(gsl_root_fsolver_x_lower(solver),
+                                        gsl_root_fsolver_x_upper(solver), 0.0, 1e-10);
+    }
+    if (good) {
+        *root = gsl_root_fsolver_root(solver);
+    }
+    gsl_root_fsolver_free(solver);
+    return good && status == GSL_SUCCESS;
+}
+
+static bool find_all(struct gb_weibull *law, struct sample *sample)
+{
+    if (!find_root(slope, sample, modulus_min, modulus_max, &law->modulus)) {
+        return false;
+    }
+    double power, weighted;
+    moments(sample, law->modulus, &power, &weighted);
+    law->scale = sample->largest * pow(power, 1.0 / law->modulus);
+    sample->level = 0.0;
+    sample->level = profile(law->modulus, sample) - 0.5 * gsl_cdf_chisq_Pinv(0.95, 1.0);
+    return find_root(profile, sample, modulus_min, law->modulus, &law->modulus_low) &&
+           find_root(profile, sample, law->modulus, modulus_max, &law->modulus_high);
+}
+
+bool gb_distribution_weibull(struct gb_weibull *law, const double *value, size_t count,
+                             struct gb_error *err)
+{
+    struct sample sample = {.value = value, .count = count};
+    double least = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        sample.largest = fmax(sample.largest, value[i]);
+        least = fmin(least, value[i]);
+    }
+    if (count < 3 || !(least > 0.0) || !(sample.largest > least) ||
+        !isfinite(sample.largest)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "Weibull's law needs 3 or more different strengths above 0");
+    }
+    for (size_t i = 0; i < count; i++) {
+        sample.mean_log += log(value[i] / sample.largest) / (double)count;
+    }
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    const bool good = find_all(law, &sample);
+    gsl_set_error_handler(handler);
+    return good || gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                                "Weibull's law: no modulus between %g and %g is best",
+                                modulus_min, modulus_max);
 }
