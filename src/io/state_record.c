@@ -61,7 +61,7 @@ static double bed_radius(const struct gb_state *state, const struct gb_bed_law *
     const bool flowed =
         law->storakers && (law->normal.printed ||
                            deepest > gb_law_storakers_transition(&law->normal, star));
-    return gb_bed_contacts_radius(law, star, flowed ? deepest : fmax(overlap, 0.0));
+    return gb_bed_batch_radius(law, star, flowed ? deepest : fmax(overlap, 0.0));
 }
 
 /* Of all pairs of a die that was made of this record.  Errors: GB_ERR_MEMORY, GB_ERR_INPUT

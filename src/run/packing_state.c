@@ -14,8 +14,8 @@
 #include "pack/cell/world.h"
 #include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"
-#include "solve/loading/compressed_axes.h"
 #include "solve/loading/loading.h"
+#include "solve/loading/loading_cell.h"
 
 /* Measures of a packing as a row of curve.csv, in SI.  The members step and seconds are
  * the caller's. */
@@ -77,7 +77,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
 {
     const struct gb_model *model = loading->model;
     const struct gb_loading_report report = loading->mode->report(loading);
-    const struct gb_compressed_axes axes = gb_compressed_axes_of(model);
+    const struct gb_compressed_axes axes = gb_loading_cell_of(model);
     const double pascal = model->pascal_per_stress;
     double tensor[3][3];
     struct gb_contact_counts counts;
@@ -94,7 +94,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
         .px_pa = pressure[0] * pascal,
         .py_pa = model->dimension == 3 ? pressure[1] * pascal : (double)NAN,
         .pz_pa = pressure[2] * pascal,
-        .p_pa = gb_compressed_axes_mean(&axes, pressure) * pascal,
+        .p_pa = gb_loading_cell_mean(&axes, pressure) * pascal,
         .coordination = counts.coordination,
         .bridged =
             counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts : 0.0,

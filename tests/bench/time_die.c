@@ -11,8 +11,8 @@
 #include "greenbody/snapshot.h"
 #include "measure/observe.h"
 #include "pack/die/filling.h"
-#include "solve/leapfrog.h"
 #include "solve/loading/die/die_stages.h"
+#include "solve/loading/die/die_state.h"
 
 /* Batches of a round, of which the median counts, and steps of a batch. */
 enum { BATCHES = 3, BATCH = 400 };
@@ -87,12 +87,12 @@ static bool time_row(struct gb_bed *bed, const struct row *row, double *seconds,
     }
     const struct gb_bed_law frozen = gb_filling_compaction_law(&params);
     gb_bed_set_law(bed, &frozen);
-    gb_leapfrog_init(&integrator, 0.5, 0.0);
+    gb_die_state_leapfrog_init(&integrator, 0.5, 0.0);
     bed->die.punch_velocity = 0.0;
     for (int b = -1; b < BATCHES; b++) { /* the first one warms up */
         const double start = now_s(row->threads);
         for (int k = 0; k < BATCH; k++) {
-            if (!gb_leapfrog_step(&integrator, bed, err)) {
+            if (!gb_die_state_leapfrog_step(&integrator, bed, err)) {
                 return false;
             }
         }

@@ -14,7 +14,7 @@
 #include "base/clock.h"
 #include "greenbody/params.h"
 #include "measure/observe.h"
-#include "pack/kernel/virial.h"
+#include "pack/cell/world.h"
 #include "pack/structure/hilbert.h"
 #include "solve/relax/relax.h"
 #include "spheres.h"
@@ -71,7 +71,7 @@ static bool settle(struct gb_world **world, const struct gb_model *model,
 static double virial(const struct gb_world *world)
 {
     double sum[3][3];
-    gb_virial_sum(world, sum);
+    gb_world_virial(world, sum);
     return (sum[0][0] + sum[1][1] + sum[2][2]) / 3.0;
 }
 

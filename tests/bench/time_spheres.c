@@ -14,7 +14,7 @@
 #include "base/vec.h"
 #include "measure/observe.h"
 #include "pack/die/bed_list.h"
-#include "solve/leapfrog.h"
+#include "solve/loading/die/die_state.h"
 #include "spheres.h"
 
 enum { STEPS = 100 };
@@ -69,7 +69,7 @@ static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
     struct gb_leapfrog leapfrog;
     struct gb_contact_counts counts;
     double *batch = g_new(double, (gsize)batches);
-    gb_leapfrog_init(&leapfrog, 0.5, 1e-3);
+    gb_die_state_leapfrog_init(&leapfrog, 0.5, 1e-3);
     bool good = gb_bed_evaluate(bed, 0.0, 0.0, err);
     if (good) {
         gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
@@ -78,7 +78,7 @@ static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
     for (int b = -1; b < batches && good; b++) { /* the first one warms up */
         const double start = gb_clock_process_s();
         for (int k = 0; k < STEPS && good; k++) {
-            good = gb_leapfrog_step(&leapfrog, bed, err);
+            good = gb_die_state_leapfrog_step(&leapfrog, bed, err);
         }
         batch[b < 0 ? 0 : b] = (gb_clock_process_s() - start) / STEPS;
     }

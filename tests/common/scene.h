@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "pack/cell/world.h"
 #include "pack/kernel/pair_forces.h"
-#include "pack/structure/initial_structure.h"
+#include "pack/structure/chain_growth.h"
 #include "scene/model.h"
 
 /* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the
@@ -46,7 +46,7 @@ static inline double *scene_positions(const struct gb_model *model)
 {
     struct gb_error err = {0};
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, &err);
-    if (!position || !gb_initial_structure_fill(model, NULL, NULL, position, &err)) {
+    if (!position || !gb_chain_growth_fill(model, NULL, NULL, position, &err)) {
         g_error("%s", err.text);
     }
     return position;

@@ -5,9 +5,9 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
+#include "pack/die/bed_list.h"
 #include "pack/die/bed_record.h"
 #include "pack/die/bed_sweep.h"
-#include "pack/die/bed_list.h"
 
 enum { COUNT = 700, STEPS = 300 };
 
@@ -79,12 +79,12 @@ static void move(struct gb_bed *bed, int steps)
         const double deviation2 = gb_bed_sweep_drift(bed, step);
         bed->die.punch_position += step * bed->die.punch_velocity;
         g_assert_true(gb_bed_evaluate_blocks(bed, step, deviation2, &err));
-        const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
-                                              .moment = (const gb_bed_row *)bed->moment,
-                                              .inverse_mass = bed->inverse_mass,
-                                              .inertia = bed->inertia,
-                                              .step = step,
-                                              .drag = 2.0};
+        const struct gb_bed_batch_kick by = {.force = (const gb_bed_row *)bed->force,
+                                             .moment = (const gb_bed_row *)bed->moment,
+                                             .inverse_mass = bed->inverse_mass,
+                                             .inertia = bed->inertia,
+                                             .step = step,
+                                             .drag = 2.0};
         gb_bed_sweep_kick(bed, &by);
     }
 }

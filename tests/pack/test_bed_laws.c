@@ -5,8 +5,8 @@
 #include "base/vec.h"
 #include "common/bed.h"
 #include "common/mindlin.h"
-#include "pack/kernel/bed_batch.h"
 #include "law/real_f64.h"
+#include "pack/kernel/bed_batch.h"
 
 /* Batches of a bed's contacts: the laws, and the transfer between particles and batch. */
 
@@ -160,7 +160,7 @@ static void evaluate(struct contact_set *set, size_t w, int step)
     for (int k = 0; k < N; k++) {
         const struct motion *m = &set->motion[k];
         if (step == 0) {
-            gb_bed_contacts_set(&set->contacts[w], k, set->law, m->radius, m->mass);
+            gb_bed_batch_set(&set->contacts[w], k, set->law, m->radius, m->mass);
         }
         first[k] = k;
         other[k] = N + k;
@@ -233,7 +233,7 @@ static void check_law(const struct gb_bed_law *law, double mu)
     set->law = law;
     set->mu = mu;
     for (size_t w = 0; w < G_N_ELEMENTS(widths); w++) {
-        g_assert_true(gb_bed_contacts_init(&set->contacts[w], N, &err));
+        g_assert_true(gb_bed_batch_init(&set->contacts[w], N, &err));
     }
     for (int step = 0; step < STEPS; step++) {
         move_all(set, rand, step);
@@ -244,7 +244,7 @@ static void check_law(const struct gb_bed_law *law, double mu)
         check_widths(set);
     }
     for (size_t w = 0; w < G_N_ELEMENTS(widths); w++) {
-        gb_bed_contacts_finish(&set->contacts[w]);
+        gb_bed_batch_finish(&set->contacts[w]);
     }
     g_rand_free(rand);
 }

@@ -7,7 +7,7 @@
 #include "base/vec.h"
 #include "common/transform.h"
 #include "measure/observe.h"
-#include "pack/kernel/virial.h"
+#include "pack/cell/world.h"
 
 enum { MOVES = 6 };
 
@@ -110,8 +110,8 @@ static void check_sums(struct packed *old, struct packed *new, const struct tran
     g_assert_cmpint(b->sliding, ==, (int64_t)copies * a->sliding);
     g_assert_cmpfloat(fabs(b->normal_sum - copies * scale), <=,
                       rounding * copies * scale);
-    gb_virial_sum(old->world, sum);
-    gb_virial_sum(new->world, got);
+    gb_world_virial(old->world, sum);
+    gb_world_virial(new->world, got);
     transform_tensor(t, sum, want);
     for (int k = 0; k < 9; k++) {
         g_assert_cmpfloat(fabs((&got[0][0])[k] - copies * (&want[0][0])[k]), <=,

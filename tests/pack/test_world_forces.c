@@ -5,8 +5,8 @@
 #include "common/world.h"
 #include "law/law_hertz.h"
 #include "measure/observe.h"
+#include "pack/cell/world.h"
 #include "pack/kernel/fabric_sums.h"
-#include "pack/kernel/virial.h"
 
 static void sum_forces(struct gb_world *world, double force[3], double *largest)
 {
@@ -286,8 +286,8 @@ static void check_virial(const struct gb_world *world, double sum[3][3])
 {
     struct gb_fabric_sums fabric = {.weight = {0}};
     double again[3][3];
-    gb_virial_sum(world, sum);
-    gb_virial_sum_fabric(world, again, &fabric); /* computes it anew */
+    gb_world_virial(world, sum);
+    gb_world_virial_fabric(world, again, &fabric); /* computes it anew */
     g_assert_true(memcmp(sum, again, sizeof again) == 0);
 }
 

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
-#include "solve/loading/dynamic.h"
+#include "solve/loading/loading_dynamic.h"
 #include "solve/verlet.h"
 
 /* Two particles in a wide cell, without attraction unless asked for. */
@@ -232,14 +232,16 @@ static struct outcome press(const struct gb_params *params, int64_t slice)
     scene_evaluate(world);
     const double stored = gb_observe_elastic(world);
     double dissipated = 0.0;
-    g_assert_true(gb_dynamic_create(&motion, world, &err));
+    g_assert_true(gb_loading_dynamic_create(&motion, world, &err));
     do {
-        out.end = gb_dynamic_advance(motion, world, slice, text, sizeof text, &err);
+        out.end =
+            gb_loading_dynamic_advance(motion, world, slice, text, sizeof text, &err);
         if (text[0] != '\0' && out.guards++ == 0) {
             g_strlcpy(out.first, text, sizeof out.first);
         }
         if (out.end == GB_STEP_POINT) {
-            const struct gb_dynamic_report report = gb_dynamic_report(motion);
+            const struct gb_loading_dynamic_report report =
+                gb_loading_dynamic_report(motion);
             out.points++;
             out.residual = fabs(report.work - report.kinetic - report.absorbed) /
                            fmax(fabs(report.work), 1e-30);
@@ -252,7 +254,7 @@ static struct outcome press(const struct gb_params *params, int64_t slice)
     } while (out.end == GB_STEP_MORE || out.end == GB_STEP_POINT);
     out.density = gb_observe_density(world);
     out.hash = gb_world_hash(world);
-    gb_dynamic_destroy(motion);
+    gb_loading_dynamic_destroy(motion);
     gb_world_destroy(world);
     return out;
 }
@@ -439,12 +441,12 @@ static double hold(double step_error, double *pressure)
     double loading = 0.0, holding = 0.0, tensor[3][3];
     gb_world_set_step(world, 1.0);
     scene_evaluate(world);
-    g_assert_true(gb_dynamic_create(&motion, world, &err));
+    g_assert_true(gb_loading_dynamic_create(&motion, world, &err));
     for (int points = 0; points < 1;) {
         const enum gb_step_outcome outcome =
-            gb_dynamic_advance(motion, world, 1000, text, sizeof text, &err);
+            gb_loading_dynamic_advance(motion, world, 1000, text, sizeof text, &err);
         g_assert_true(outcome == GB_STEP_POINT || outcome == GB_STEP_MORE);
-        const struct gb_dynamic_report report = gb_dynamic_report(motion);
+        const struct gb_loading_dynamic_report report = gb_loading_dynamic_report(motion);
         const bool holds = report.stage == GB_DYNAMIC_HOLD;
         *(holds ? &holding : &loading) = report.time_step;
         points += holds && outcome == GB_STEP_POINT;
@@ -454,7 +456,7 @@ static double hold(double step_error, double *pressure)
     }
     gb_observe_pressure(world, tensor);
     *pressure = tensor[0][0] + tensor[2][2];
-    gb_dynamic_destroy(motion);
+    gb_loading_dynamic_destroy(motion);
     gb_world_destroy(world);
     return holding / loading;
 }

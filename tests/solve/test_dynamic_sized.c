@@ -9,8 +9,8 @@
 #include "common/scene.h"
 #include "measure/observe.h"
 #include "scene/unequal_pair.h"
-#include "solve/loading/dynamic.h"
 #include "solve/loading/loading.h"
+#include "solve/loading/loading_dynamic.h"
 #include "solve/verlet.h"
 
 /* Spheres of 6 and 17 nm in a wide cell. */
@@ -230,11 +230,12 @@ static struct outcome press(const struct gb_params *params, int64_t slice)
     gb_world_set_step(world, 1.0);
     scene_evaluate(world);
     const double stored = gb_observe_elastic(world);
-    g_assert_true(gb_dynamic_create(&motion, world, &err));
+    g_assert_true(gb_loading_dynamic_create(&motion, world, &err));
     do {
-        end = gb_dynamic_advance(motion, world, slice, text, sizeof text, &err);
+        end = gb_loading_dynamic_advance(motion, world, slice, text, sizeof text, &err);
         if (end == GB_STEP_POINT) {
-            const struct gb_dynamic_report report = gb_dynamic_report(motion);
+            const struct gb_loading_dynamic_report report =
+                gb_loading_dynamic_report(motion);
             const double lost = report.absorbed - (gb_observe_elastic(world) - stored);
             out.points++;
             work = report.work;
@@ -254,7 +255,7 @@ static struct outcome press(const struct gb_params *params, int64_t slice)
     gb_observe_contacts(world, &counts, NULL, 0, NULL);
     out.coordination = counts.coordination;
     out.hash = gb_world_hash(world);
-    gb_dynamic_destroy(motion);
+    gb_loading_dynamic_destroy(motion);
     gb_world_destroy(world);
     return out;
 }

@@ -6,7 +6,7 @@
 
 #include "common/scene.h"
 #include "scene/tolerances.h"
-#include "solve/loading/quasistatic.h"
+#include "solve/loading/loading_quasistatic.h"
 #include "solve/loading/strain_step.h"
 #include "solve/relax/relax.h"
 
@@ -116,12 +116,12 @@ static void check_stall(struct gb_relax *relax, struct gb_world *world)
     g_assert_cmpint(relax->evaluations, >=, 2 * GB_STALL_EVALUATIONS);
     g_assert_cmpint(relax->evaluations, <, relax->max_evaluations / 4);
     relax->tolerance = relax->residual / 1e3;
-    g_assert_cmpint(gb_strain_step_judge(&guard, outcome, relax, text, sizeof text, &err), ==,
-                    GB_GUARD_STOP);
+    g_assert_cmpint(gb_strain_step_judge(&guard, outcome, relax, text, sizeof text, &err),
+                    ==, GB_GUARD_STOP);
     g_assert_cmpint(err.code, ==, GB_ERR_NOT_CONVERGED);
     relax->tolerance = relax->residual / 2.0;
-    g_assert_cmpint(gb_strain_step_judge(&guard, outcome, relax, text, sizeof text, &err), ==,
-                    GB_GUARD_ACCEPT);
+    g_assert_cmpint(gb_strain_step_judge(&guard, outcome, relax, text, sizeof text, &err),
+                    ==, GB_GUARD_ACCEPT);
     g_assert_nonnull(strstr(text, "the relaxation stalls"));
 }
 
@@ -210,8 +210,8 @@ static void test_cross(void)
     g_assert_false(gb_world_evaluate(world, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
     g_assert_nonnull(strstr(err.text, "overlap by 0.6"));
-    while (gb_strain_step_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err) ==
-           GB_GUARD_RETRY) {
+    while (gb_strain_step_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text,
+                                &err) == GB_GUARD_RETRY) {
         g_assert_nonnull(strstr(text, "strain step halved"));
         retries++;
     }
@@ -261,17 +261,17 @@ static void test_endless(void)
     struct gb_quasistatic load;
     double factor[3];
     double density = 0.3, grown = 1.0;
-    gb_quasistatic_init(&load, &model);
+    gb_loading_quasistatic_init(&load, &model);
     const double top[3] = {model.unload_from[0], model.unload_from[0],
                            model.unload_from[0]};
-    g_assert_cmpint(gb_quasistatic_next(&load, top, density, factor), ==,
+    g_assert_cmpint(gb_loading_quasistatic_next(&load, top, density, factor), ==,
                     GB_QUASISTATIC_UNLOAD);
     enum gb_quasistatic_order order = GB_QUASISTATIC_STRAIN;
     for (int i = 0; i < 1000 && order == GB_QUASISTATIC_STRAIN; i++) {
         const double left[3] = {0.1 * top[0], 0.1 * top[0], 0.1 * top[0]};
         grown *= factor[2];
         density /= factor[0] * factor[1] * factor[2];
-        order = gb_quasistatic_next(&load, left, density, factor);
+        order = gb_loading_quasistatic_next(&load, left, density, factor);
     }
     g_assert_cmpint(order, ==, GB_QUASISTATIC_RESTORE);
     g_assert_true(load.endless);

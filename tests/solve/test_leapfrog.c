@@ -6,12 +6,12 @@
 #include "base/vec.h"
 #include "common/bed.h"
 #include "scene/tolerances.h"
-#include "solve/leapfrog.h"
+#include "solve/loading/die/die_state.h"
 
 static void advance_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed)
 {
     struct gb_error err = {0};
-    if (!gb_leapfrog_step(leapfrog, bed, &err)) {
+    if (!gb_die_state_leapfrog_step(leapfrog, bed, &err)) {
         g_error("%s", err.text);
     }
 }
@@ -55,7 +55,7 @@ static double speed_after(const struct duo *duo, double speed, double safety,
     const double radius[2] = {duo->radius, duo->radius};
     struct gb_bed *bed = bed_create(2, radius, &die, &duo->law);
     struct gb_leapfrog motion;
-    gb_leapfrog_init(&motion, safety, 0.0);
+    gb_die_state_leapfrog_init(&motion, safety, 0.0);
     motion.fastest = speed;
     bed_set_position(bed, 0, -duo->radius, 0.0, 5.0);
     bed_set_position(bed, 1, duo->radius, 0.0, 5.0);
@@ -132,7 +132,7 @@ static void test_closed(void)
         }
     }
     struct gb_leapfrog motion;
-    gb_leapfrog_init(&motion, 0.05, 0.0);
+    gb_die_state_leapfrog_init(&motion, 0.05, 0.0);
     motion.fastest = 4e-3;
     const double before = kinetic(bed);
     double worst = 0.0, stored = 0.0, half = before;
@@ -184,9 +184,10 @@ static void test_impact(void)
     for (double speed = 1e-5; speed < 0.02; speed *= 30.0) {
         struct gb_bed *bed = create_closing(speed);
         g_assert_true(gb_bed_evaluate(bed, 0.0, 0.0, &err));
-        const double duration = gb_leapfrog_impact(bed) / (GB_IMPACT_SHARE * 2.0 / M_PI);
+        const double duration =
+            gb_die_state_leapfrog_impact(bed) / (GB_IMPACT_SHARE * 2.0 / M_PI);
         struct gb_leapfrog motion;
-        gb_leapfrog_init(&motion, 1.0, duration / 2000.0);
+        gb_die_state_leapfrog_init(&motion, 1.0, duration / 2000.0);
         double touching = 0.0;
         for (int step = 0; step < 5000; step++) {
             advance_step(&motion, bed);
@@ -195,13 +196,13 @@ static void test_impact(void)
         g_test_message("speed %g: %.6g, took %.6g", speed, duration, touching);
         g_assert_cmpfloat(bed->velocity[1][0], >, 0.0);
         g_assert_cmpfloat_with_epsilon(touching / duration, 1.0, 2e-3);
-        g_assert_true(isinf(gb_leapfrog_impact(bed)));
+        g_assert_true(isinf(gb_die_state_leapfrog_impact(bed)));
         gb_bed_destroy(bed);
     }
     struct gb_bed *past = create_closing(0.0);
     past->velocity[1][1] = 1e-3;
     g_assert_true(gb_bed_evaluate(past, 0.0, 0.0, &err));
-    g_assert_true(isinf(gb_leapfrog_impact(past)));
+    g_assert_true(isinf(gb_die_state_leapfrog_impact(past)));
     gb_bed_destroy(past);
 }
 
@@ -231,7 +232,7 @@ static void test_chain(void)
         for (int count = 1; count <= 8; count++) {
             struct gb_bed *bed = create_chain(count, 1e-3, damping[k]);
             struct gb_leapfrog motion;
-            gb_leapfrog_init(&motion, 0.98, 0.0);
+            gb_die_state_leapfrog_init(&motion, 0.98, 0.0);
             for (int i = 0; i < count; i++) {
                 bed->velocity[i][2] = 1e-9 * cos(2.0 * i);
             }
@@ -382,9 +383,9 @@ static void test_modes(void)
         struct gb_error err = {0};
         struct gb_bed *bed = create_heap(ratio[k / 3 % 3], mu, mu_wall, rand);
         struct gb_leapfrog motion;
-        gb_leapfrog_init(&motion, 1e-6, 0.0);
-        g_assert_true(gb_leapfrog_step(&motion, bed, &err));
-        const double critical = gb_leapfrog_critical(bed);
+        gb_die_state_leapfrog_init(&motion, 1e-6, 0.0);
+        g_assert_true(gb_die_state_leapfrog_step(&motion, bed, &err));
+        const double critical = gb_die_state_leapfrog_critical(bed);
         const double square = fastest_mode(bed, rand);
         g_test_message("sizes to %g, mu %.1f, of walls %.1f: (omega dt)^2 %.2f",
                        ratio[k / 3 % 3], mu, mu_wall, critical * critical * square);

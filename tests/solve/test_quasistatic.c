@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "common/scene.h"
-#include "solve/loading/quasistatic.h"
+#include "solve/loading/loading_quasistatic.h"
 
 /* A made-up powder: pressure follows density, unloading is ten times stiffer. */
 struct powder {
@@ -31,10 +31,10 @@ static struct outcome run(const struct gb_model *model)
     struct powder powder = {.density = 0.24};
     struct outcome out = {0};
     double factor[3];
-    gb_quasistatic_init(&load, model);
+    gb_loading_quasistatic_init(&load, model);
     for (int i = 0; i < 100000; i++) {
         const double p[3] = {powder.pressure, powder.pressure, powder.pressure};
-        switch (gb_quasistatic_next(&load, p, powder.density, factor)) {
+        switch (gb_loading_quasistatic_next(&load, p, powder.density, factor)) {
         case GB_QUASISTATIC_END:
             out.end_density = powder.density;
             out.end_pressure = powder.pressure;
@@ -97,18 +97,19 @@ static void test_axes(void)
     struct gb_quasistatic load;
     double factor[3];
     const double p[3] = {1e-6, 2e-6, 4e-6};
-    gb_quasistatic_init(&load, &model);
-    g_assert_cmpint(gb_quasistatic_next(&load, p, 0.3, factor), ==,
+    gb_loading_quasistatic_init(&load, &model);
+    g_assert_cmpint(gb_loading_quasistatic_next(&load, p, 0.3, factor), ==,
                     GB_QUASISTATIC_STRAIN);
     g_assert_cmpfloat(factor[0], ==, 1.0);
     g_assert_cmpfloat(factor[1], ==, 1.0 - 1e-3);
     g_assert_cmpfloat(factor[2], ==, 1.0 - 1e-3);
-    g_assert_cmpfloat_with_epsilon(gb_quasistatic_pressure(&load, p), 3e-6, 1e-20);
-    gb_quasistatic_halve(&load, factor);
+    g_assert_cmpfloat_with_epsilon(gb_loading_quasistatic_pressure(&load, p), 3e-6,
+                                   1e-20);
+    gb_loading_quasistatic_halve(&load, factor);
     g_assert_cmpfloat_with_epsilon(factor[2] * factor[2], 1.0 - 1e-3, 1e-15);
     g_assert_cmpfloat(load.step, ==, 5e-4);
-    gb_quasistatic_recover(&load);
-    gb_quasistatic_recover(&load);
+    gb_loading_quasistatic_recover(&load);
+    gb_loading_quasistatic_recover(&load);
     g_assert_cmpfloat(load.step, ==, 1e-3);
 }
 

@@ -8,24 +8,418 @@
 #include "pack/cell/world.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/record.h"
 #include "base/team.h"
 #include "base/vec.h"
+#include "pack/cell/engine.h"
 #include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"
 #include "pack/cell/world_record.h"
 #include "pack/f32/f32_state.h"
 #include "pack/kernel/fabric_sums.h"
-#include "pack/kernel/sweep.h"
-#include "pack/kernel/virial.h"
+#include "pack/kernel/pair_forces.h"
+#include "pack/kernel/share.h"
+#include "pack/kernel/simd.h"
+#include "pack/kernel/sweep_f32.h"
+#include "pack/kernel/sweep_f64.h"
+#include "pack/kernel/tally.h"
 #include "pack/list/blocks.h"
 #include "pack/list/engine_lists.h"
+#include "pack/list/list_check.h"
 #include "pack/list/list_patch.h"
 #include "scene/thread_count.h"
 #include "scene/tolerances.h"
+
+/* ---- Pressure and fabric as sums over pairs ---- */
+
+/* Partial sums over at most PARTS parts of the particles, added in their order: the same
+ * bits for any number of threads.  Groups of parts have about GROUP_LEAST particles and more,
+ * enough to fill some batches; in single precision a part is a group. */
+enum { PARTS = 64, GROUP_LEAST = 256 };
+
+static int groups_of(const struct gb_engine *engine)
+{
+    const int64_t groups = 1 + engine->particles.count / GROUP_LEAST;
+    return groups < PARTS ? (int)groups : PARTS;
+}
+
+static int parts_of(const struct gb_engine *engine)
+{
+    return gb_engine_is_f32(engine) ? groups_of(engine) : PARTS;
+}
+
+static void add(double sum[3][3], const double force[3], const double r[3])
+{
+    for (int a = 0; a < 3; a++) {
+        gb_vec_add(sum[a], force[a], r);
+    }
+}
+
+/* Adds the pairs of a batch, lane by lane. */
+GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_f32 *batch,
+                                 double lane[3][3][GB_LANES])
+{
+    for (int a = 0; a < 3; a++) {
+        const float *restrict force = batch->force[a];
+        for (int b = 0; b < 3; b++) {
+            const float *restrict r = batch->r[b];
+            double *restrict sum = lane[a][b];
+            int k = 0;
+            for (; k + GB_LANES <= batch->n; k += GB_LANES) {
+                for (int l = 0; l < GB_LANES; l++) {
+                    sum[l] += (double)force[k + l] * (double)r[k + l];
+                }
+            }
+            for (; k < batch->n; k++) {
+                sum[0] += (double)force[k] * (double)r[k];
+            }
+        }
+    }
+}
+GB_SIMD_WIDTHS(add_batch, (const struct gb_batch_f32 *batch, double lane[3][3][GB_LANES]),
+               (batch, lane))
+
+/* Contacts of a batch in single precision that begins at a slot of the near list. */
+static void add_fabric_f32(const struct gb_engine *engine,
+                           const struct gb_batch_f32 *batch, int64_t slot,
+                           struct gb_fabric_sums *fabric)
+{
+    const struct gb_contacts *contacts = &engine->contacts;
+    const float *deepest = (const float *)contacts->plane[contacts->deepest] + slot;
+    struct gb_fabric_sums_batch pairs;
+    pairs.n = batch->n;
+    for (int k = 0; k < batch->n; k++) {
+        for (int c = 0; c < 3; c++) {
+            pairs.r[c][k] = (double)batch->r[c][k];
+            pairs.force[c][k] = (double)batch->force[c][k];
+        }
+        pairs.deepest[k] = (double)deepest[k];
+    }
+    gb_fabric_sums_add(fabric, &pairs);
+}
+
+/* Pairs [begin, end) of a list in single precision; fabric: of the near list, or NULL. */
+static void sum_f32(const struct gb_engine *engine, const struct gb_pair_list *list,
+                    int64_t begin, int64_t end, double sum[3][3],
+                    struct gb_fabric_sums *fabric)
+{
+    double lane[3][3][GB_LANES] = {0};
+    struct gb_batch_f32 batch;
+    for (int64_t slot = begin; slot < end; slot += batch.n) {
+        batch.n = end - slot < GB_BATCH ? (int)(end - slot) : GB_BATCH;
+        gb_sweep_f32_recompute(engine, list, slot, &batch);
+        add_batch(&batch, lane);
+        if (fabric) {
+            add_fabric_f32(engine, &batch, slot, fabric);
+        }
+    }
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) {
+            for (int l = 0; l < GB_LANES; l++) {
+                sum[a][b] += lane[a][b][l];
+            }
+        }
+    }
+}
+
+/* Adds pair k to those of the fabric, if it touches; a full batch is added to the sums. */
+static void add_fabric_f64(const struct gb_engine *engine, int64_t k,
+                           const double force[3], const double r[3],
+                           struct gb_fabric_sums_batch *pairs,
+                           struct gb_fabric_sums *fabric)
+{
+    const double deepest = gb_contacts_deepest(&engine->contacts, k);
+    if (deepest < 0.0) {
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        pairs->r[c][pairs->n] = r[c];
+        pairs->force[c][pairs->n] = force[c];
+    }
+    pairs->deepest[pairs->n++] = deepest;
+    if (pairs->n == GB_BATCH) {
+        gb_fabric_sums_add(fabric, pairs);
+        pairs->n = 0;
+    }
+}
+
+/* Pairs of particle i in double precision; fabric: of the near list, or NULL. */
+static void sum_f64(struct gb_pair_forces *forces, int64_t i, double sum[3][3],
+                    struct gb_fabric_sums_batch *pairs, struct gb_fabric_sums *fabric)
+{
+    const struct gb_pair_list *list = forces->list;
+    const struct gb_engine *engine = &forces->world->engine;
+    for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
+        double force[3], r[3];
+        gb_engine_branch_vector(engine, list, i, k, r);
+        gb_pair_forces_at(forces, k, force);
+        add(sum, force, r);
+        if (fabric) {
+            add_fabric_f64(engine, k, force, r, pairs, fabric);
+        }
+    }
+}
+
+/* pairs: contacts in double precision that are not in the fabric yet. */
+static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
+                     double sum[3][3], struct gb_fabric_sums_batch *pairs,
+                     struct gb_fabric_sums *fabric)
+{
+    const struct gb_engine *engine = &world->engine;
+    const struct gb_pair_list *near = &engine->list.near, *far = &engine->list.far;
+    struct gb_pair_forces near_forces, far_forces;
+    if (gb_engine_is_f32(engine)) {
+        sum_f32(engine, near, near->start[begin], near->start[end], sum, fabric);
+        sum_f32(engine, far, far->start[begin], far->start[end], sum, NULL);
+        return;
+    }
+    gb_pair_forces_init(&near_forces, world, GB_PAIR_FORCES_NEAR);
+    gb_pair_forces_init(&far_forces, world, GB_PAIR_FORCES_FAR);
+    for (int64_t i = begin; i < end; i++) {
+        sum_f64(&near_forces, i, sum, pairs, fabric);
+        sum_f64(&far_forces, i, sum, NULL, NULL);
+    }
+}
+
+/* Parts begin .. end - 1; the fabric of all of them, or NULL. */
+static void sum_group(const struct gb_world *world, int begin, int end,
+                      double (*part)[3][3], struct gb_fabric_sums *fabric)
+{
+    const int64_t count = world->engine.particles.count;
+    const int parts = parts_of(&world->engine);
+    struct gb_fabric_sums_batch pairs;
+    pairs.n = 0;
+    for (int p = begin; p < end; p++) {
+        sum_part(world, gb_share(count, p, parts), gb_share(count, p + 1, parts), part[p],
+                 &pairs, fabric);
+    }
+    if (fabric && pairs.n > 0) {
+        gb_fabric_sums_add(fabric, &pairs);
+    }
+}
+
+void gb_world_virial(const struct gb_world *world, double sum[3][3])
+{
+    gb_world_virial_fabric(world, sum, NULL);
+}
+
+/* Adds the sums of a group. */
+static void add_group(struct gb_fabric_sums *sums, const struct gb_fabric_sums *group)
+{
+    for (int kind = 0; kind < GB_FABRIC_KINDS; kind++) {
+        sums->weight[kind] += group->weight[kind];
+        for (int s = 0; s < 6; s++) {
+            sums->tensor[kind][s] += group->tensor[kind][s];
+        }
+    }
+}
+
+struct summing {
+    const struct gb_world *world;
+    double (*part)[3][3];
+    struct gb_fabric_sums *group; /* NULL: no fabric */
+};
+
+static void sum_item(void *data, int64_t g)
+{
+    const struct summing *summing = data;
+    const struct gb_engine *engine = &summing->world->engine;
+    const int parts = parts_of(engine), groups = groups_of(engine);
+    struct gb_fabric_sums *fabric = summing->group ? &summing->group[g] : NULL;
+    if (fabric) {
+        *fabric = (struct gb_fabric_sums){.weight = {0}};
+    }
+    sum_group(summing->world, (int)gb_share(parts, (int)g, groups),
+              (int)gb_share(parts, (int)g + 1, groups), summing->part, fabric);
+}
+
+static void sum_all(const struct gb_world *world, double sum[3][3],
+                    struct gb_fabric_sums *fabric)
+{
+    double part[PARTS][3][3] = {0};
+    struct gb_fabric_sums group[PARTS];
+    const int parts = parts_of(&world->engine), groups = groups_of(&world->engine);
+    struct summing summing = {world, part, fabric ? group : NULL};
+    gb_team_run(world->engine.team, groups, sum_item, &summing);
+    for (int g = 0; fabric && g < groups; g++) {
+        add_group(fabric, &group[g]);
+    }
+    memset(sum, 0, sizeof part[0]);
+    for (int p = 0; p < parts; p++) {
+        for (int a = 0; a < 3; a++) {
+            gb_vec_add(sum[a], 1.0, part[p][a]);
+        }
+    }
+}
+
+void gb_world_virial_fabric(const struct gb_world *world, double sum[3][3],
+                            struct gb_fabric_sums *fabric)
+{
+    const struct gb_engine_state *state = &world->engine.state;
+    struct gb_virial *last = world->virial;
+    if (fabric || last->evaluation != state->evaluation ||
+        !gb_engine_state_evaluated(state)) {
+        sum_all(world, last->sum, fabric);
+        last->evaluation = gb_engine_state_evaluated(state) ? state->evaluation : 0;
+    }
+    memcpy(sum, last->sum, sizeof last->sum);
+}
+
+enum sweep_outcome {
+    GB_SWEEP_DONE,
+    GB_SWEEP_LIST_INVALID, /* nothing was computed: a pair is missing from the lists */
+    GB_SWEEP_NOT_FINITE,   /* nothing was computed: a coordinate is not finite */
+};
+
+/* ---- Sweeps over the blocks of particles ---- */
+
+static void sweep_block(struct gb_engine *engine, int64_t b)
+{
+    const double cutoff = gb_engine_cutoff(engine);
+    struct gb_tally tally = {0};
+    if (gb_engine_is_f32(engine)) {
+        gb_sweep_f32_block(engine, b, cutoff * cutoff, &tally);
+    } else {
+        gb_sweep_f64_block(engine, b, cutoff * cutoff, &tally);
+    }
+    engine->tally[b].tally = tally;
+}
+
+static void collect_block(struct gb_engine *engine, int64_t b,
+                          struct gb_sweep_along along)
+{
+    struct gb_particles *particles = &engine->particles;
+    const int64_t begin = gb_blocks_begin(particles->count, b);
+    const int64_t end = gb_blocks_end(particles->count, b);
+    if (!gb_engine_state_moved(&engine->state)) {
+        memset(particles->rotation + 3 * begin, 0,
+               3 * (size_t)(end - begin) * sizeof *particles->rotation);
+    }
+    if (gb_engine_is_f32(engine)) {
+        gb_sweep_f32_collect(engine, begin, end, &engine->tally[b].sums);
+    } else {
+        gb_sweep_f64_collect(engine, begin, end);
+        gb_sweep_f64_sum(particles, begin, end, along, &engine->tally[b].sums);
+    }
+}
+
+static void prepare_block(void *data, int64_t b)
+{
+    struct gb_engine *engine = data;
+    const int64_t count = engine->particles.count;
+    gb_list_check_measure(engine, b);
+    if (gb_engine_is_f32(engine)) {
+        gb_f32_state_particles(engine, gb_blocks_begin(count, b),
+                               gb_blocks_end(count, b));
+    }
+}
+
+struct sweep {
+    struct gb_engine *engine;
+    struct gb_sweep_along along;
+};
+
+static void sweep_item(void *data, int64_t b)
+{
+    const struct sweep *sweep = data;
+    sweep_block(sweep->engine, b);
+}
+
+static void collect_item(void *data, int64_t b)
+{
+    const struct sweep *sweep = data;
+    collect_block(sweep->engine, b, sweep->along);
+}
+
+/* In single precision all rows for a block come from blocks before it: a single thread
+ * collects each block while it is in the caches. */
+static bool collects_at_once(const struct gb_engine *engine)
+{
+    return gb_engine_is_f32(engine) && gb_team_active(engine->team) < 2;
+}
+
+static void run_blocks(struct gb_engine *engine, int64_t blocks,
+                       struct gb_sweep_along along)
+{
+    struct sweep sweep = {engine, along};
+    if (collects_at_once(engine)) {
+        for (int64_t b = 0; b < blocks; b++) {
+            sweep_block(engine, b);
+            collect_block(engine, b, along);
+        }
+    } else {
+        gb_blocks_run(engine, sweep_item, &sweep);
+        gb_blocks_run(engine, collect_item, &sweep);
+    }
+}
+
+static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
+{
+    sum->contacts += part->contacts;
+    sum->sliding += part->sliding;
+    sum->normal_sum += part->normal_sum;
+    sum->absorbed += part->absorbed;
+    for (int c = 0; c < 3; c++) {
+        sum->virial[c] += part->virial[c];
+    }
+    sum->deepest = fmax(sum->deepest, part->deepest);
+}
+
+/* Sums of the blocks, in their order. */
+static void sum_blocks(struct gb_engine *engine, int64_t blocks)
+{
+    struct gb_tally_block total = {0};
+    for (int64_t b = 0; b < blocks; b++) {
+        const struct gb_tally_block *block = &engine->tally[b];
+        total.sums.force2 += block->sums.force2;
+        total.sums.torque2 += block->sums.torque2;
+        total.sums.power += block->sums.power;
+        add_tally(&total.tally, &block->tally);
+    }
+    engine->total = total;
+}
+
+static bool sweep(struct gb_engine *engine, struct gb_sweep_along along)
+{
+    const int64_t blocks = gb_blocks_count(engine->particles.count);
+    for (int c = 0; c < 3; c++) {
+        engine->f32.scale[c] = (float)gb_fixed_position_unit(&engine->particles.cell, c);
+    }
+    if (!gb_engine_state_moved(&engine->state)) {
+        gb_f32_state_synchronise(engine);
+        gb_blocks_run(engine, prepare_block, engine);
+    } /* else the velocity update did it */
+    if (!gb_list_check_run(engine)) {
+        return false;
+    }
+    gb_team_measured_begin(engine->team);
+    run_blocks(engine, blocks, along);
+    gb_team_measured_end(engine->team);
+    sum_blocks(engine, blocks);
+    return true;
+}
+
+/* Forces and torques from lists that are still valid; contact histories advance,
+ * rotation increments are set to 0.  Pairs are computed in blocks of particles, then
+ * every particle adds the forces of pairs of other blocks, in the order of the list: the
+ * same bits for any number of threads. */
+static enum sweep_outcome sweep_run(struct gb_engine *engine, struct gb_sweep_along along)
+{
+    const double count = (double)engine->particles.count;
+    gb_neighbour_list_update_shifts(&engine->list, &engine->particles.cell);
+    if (!sweep(engine, along)) {
+        return isfinite(gb_list_check_largest(engine)) ? GB_SWEEP_LIST_INVALID
+                                                       : GB_SWEEP_NOT_FINITE;
+    }
+    engine->force_rms = sqrt(engine->total.sums.force2 / count);
+    engine->torque_rms = sqrt(engine->total.sums.torque2 / count);
+    gb_engine_state_evaluate(&engine->state);
+    return GB_SWEEP_DONE;
+}
 
 /* ---- Life ---- */
 
@@ -40,7 +434,7 @@ static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
     engine->model = model;
     engine->state.real = f32 ? GB_REAL_F32 : GB_REAL_F64;
     engine->kernel = gb_batch_pick(model, 0);
-    gb_pair_results_init(&engine->pair, model);
+    gb_engine_pair_init(&engine->pair, model);
     engine->check = gb_alloc_array(blocks, sizeof *engine->check, err);
     engine->tally = gb_alloc_array(blocks, sizeof *engine->tally, err);
     engine->block_cost = gb_alloc_array(blocks + 1, sizeof *engine->block_cost, err);
@@ -67,7 +461,7 @@ static void finish_engine(struct gb_engine *engine)
     gb_alloc_free(engine->tally);
     gb_alloc_free(engine->block_cost);
     gb_contacts_finish(&engine->contacts);
-    gb_pair_results_finish(&engine->pair);
+    gb_engine_pair_finish(&engine->pair);
     gb_f32_state_finish(&engine->f32);
     gb_neighbour_list_finish(&engine->list);
     gb_particles_finish(&engine->particles);
@@ -128,7 +522,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
     for (int64_t b = 0; b < gb_blocks_count(engine->particles.count); b++) {
         engine->check[b].displacement = 0.0; /* also of a velocity update before this */
     }
-    gb_pair_results_reset_far(&engine->pair, engine->list.far.pair_count);
+    gb_engine_pair_reset_far(&engine->pair, engine->list.far.pair_count);
     world->rebuilds++;
     return true;
 }
@@ -167,11 +561,10 @@ static bool check_result(struct gb_engine *engine, struct gb_error *err)
 }
 
 /* A sweep with the lists as they are, if there are any. */
-static enum gb_sweep_outcome try_sweep(struct gb_engine *engine,
-                                       struct gb_sweep_along along)
+static enum sweep_outcome try_sweep(struct gb_engine *engine, struct gb_sweep_along along)
 {
     if (engine->state.lists != GB_ENGINE_NO_LISTS) {
-        return gb_sweep_run(engine, along);
+        return sweep_run(engine, along);
     }
     gb_f32_state_synchronise(engine);
     const double displacement = gb_neighbour_list_displacement(
@@ -193,7 +586,7 @@ static enum gb_list_patch_outcome patch_and_sweep(struct gb_engine *engine,
     }
     if (outcome == GB_LIST_PATCH_DONE) {
         gb_engine_state_patch_lists(&engine->state);
-        (void)gb_sweep_run(engine, along); /* patched lists are valid */
+        (void)sweep_run(engine, along); /* patched lists are valid */
         gb_engine_state_use_lists(&engine->state);
     }
     return outcome;
@@ -205,7 +598,7 @@ static bool rebuild_and_sweep(struct gb_world *world, struct gb_sweep_along alon
     if (!gb_world_evaluate_rebuild(world, NULL, err)) {
         return false;
     }
-    (void)gb_sweep_run(&world->engine, along); /* new lists are valid */
+    (void)sweep_run(&world->engine, along); /* new lists are valid */
     return true;
 }
 
@@ -213,7 +606,7 @@ static bool evaluate(struct gb_world *world, struct gb_sweep_along along,
                      struct gb_error *err)
 {
     struct gb_engine *engine = &world->engine;
-    const enum gb_sweep_outcome swept = try_sweep(engine, along);
+    const enum sweep_outcome swept = try_sweep(engine, along);
     if (swept == GB_SWEEP_NOT_FINITE) {
         return gb_error_set(err, GB_ERR_GUARD,
                             "a coordinate of a particle is not a finite number");
@@ -481,7 +874,7 @@ void gb_world_tensors(const struct gb_world *world, double pressure[3][3],
                       struct gb_fabric_sums *fabric)
 {
     const double volume = gb_cell_volume(gb_world_cell(world));
-    gb_virial_sum_fabric(world, pressure, fabric);
+    gb_world_virial_fabric(world, pressure, fabric);
     for (int a = 0; a < 3; a++) {
         gb_vec_scale(pressure[a], 1.0 / volume);
     }

@@ -13,6 +13,22 @@
 #include "pack/list/neighbour_list.h"
 #include "scene/model.h"
 
+struct gb_fabric_sums;
+
+struct gb_world;
+
+/* sum[a][b]: sum of f_a r_b over all pairs, in contact or attracting across a gap (E d^3),
+ * as of the last evaluation: f is the force on the first particle, r the branch vector from
+ * the second to the first.  Over the volume it is the pressure tensor (P1 eq. 16).  Computed
+ * once an evaluation. */
+void gb_world_virial(const struct gb_world *world, double sum[3][3]);
+
+/* The same in one pass with the sums of the fabric tensors (NULL: without). */
+void gb_world_virial_fabric(const struct gb_world *world, double sum[3][3],
+                            struct gb_fabric_sums *fabric);
+
+struct gb_engine;
+
 /* A periodic packing: cell, particles, contacts and their history.  Mutable, one thread
  * only; the force sweep inside uses model->numerics.threads threads and gives the same
  * bits for any number of them.  Reduced units.  How it works: docs/engine.md. */

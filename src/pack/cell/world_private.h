@@ -13,11 +13,11 @@ struct gb_virial {
 };
 
 /* The inside of gb_world, for the top files of the periodic engine only: world*.c,
- * cap_rounding.c, integrate_f32.c, nonaffine.c, pair_forces.c, pair_tangent.c and virial.c
+ * pair_tangent.c, integrate_f32.c, nonaffine.c, pair_forces.c, pair_tangent.c and world.c
  * (docs/engine.md). */
 struct gb_world {
     struct gb_engine engine;
-    struct gb_virial *virial;      /* the last one, by virial.c */
+    struct gb_virial *virial;      /* the last one, by world.c */
     struct gb_contact_carry carry; /* across list rebuilds */
     int32_t *coordination;         /* scratch of gb_world_coordination, one a particle */
     int64_t evaluations, rebuilds;

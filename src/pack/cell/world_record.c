@@ -220,7 +220,7 @@ static bool load_forces(struct gb_world *world, const struct gb_record *record,
         if (gb_contacts_touch(&engine->contacts, k)) {
             double force[3];
             gb_record_numbers(item, 3 * row++, 3, force);
-            gb_pair_results_set_force(&engine->pair, k, force);
+            gb_engine_pair_set_force(&engine->pair, k, force);
         }
     }
     return true;

@@ -18,7 +18,7 @@ struct gb_bed_tally {
      * straight chain has 1.5 times it. */
     double stiffest;
     /* Largest closing speed times (H/m*)^2 of a listed contact, H its force over h^1.5: by it
-     * the shortest collision that is under way or may begin (gb_leapfrog_impact).  Both bounds
+     * the shortest collision that is under way or may begin (gb_die_state_leapfrog_impact).  Both bounds
      * are those of the pairs that the list has, which resumed runs make at the same steps. */
     double impact;
     double floor, punch; /* force on them, positive in compression */

@@ -29,7 +29,7 @@ bool gb_bed_list_init(struct gb_bed_list *list, int64_t particles, int64_t room,
     list->other = gb_alloc_array((size_t)room + 1, sizeof *list->other, err);
     list->target = gb_alloc_array((size_t)room + 1, sizeof *list->target, err);
     if (!list->start || !list->first || !list->other || !list->target ||
-        !gb_bed_contacts_init(&list->contacts, room, err)) {
+        !gb_bed_batch_init(&list->contacts, room, err)) {
         gb_bed_list_finish(list);
         return false;
     }
@@ -42,7 +42,7 @@ void gb_bed_list_finish(struct gb_bed_list *list)
     gb_alloc_free(list->first);
     gb_alloc_free(list->other);
     gb_alloc_free(list->target);
-    gb_bed_contacts_finish(&list->contacts);
+    gb_bed_batch_finish(&list->contacts);
     *list = (struct gb_bed_list){0};
 }
 
@@ -64,7 +64,7 @@ static void set_slot(struct gb_bed_list *list, int64_t slot, int64_t i, int64_t 
     const double radius[2] = {bed->position[i][3],
                               wall ? HUGE_VAL : bed->position[other][3]};
     const double mass[2] = {bed->mass[i], wall ? HUGE_VAL : bed->mass[other]};
-    gb_bed_contacts_set(&list->contacts, slot, &bed->law, radius, mass);
+    gb_bed_batch_set(&list->contacts, slot, &bed->law, radius, mass);
 }
 
 static double *history(const struct gb_bed_contacts *contacts, int k)

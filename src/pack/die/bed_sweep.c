@@ -14,7 +14,6 @@
 #include "base/team.h"
 #include "pack/die/bed.h"
 #include "pack/kernel/bed_batch.h"
-#include "pack/kernel/bed_motion.h"
 #include "pack/kernel/simd.h"
 
 /* ---- Walls ---- */
@@ -203,11 +202,11 @@ static void sum_block(struct gb_bed *bed, int64_t b)
     const int64_t crossings = gb_bed_crossing_rows(bed), entry = blocks->entry[b];
     const int64_t count = blocks->entry[b + 1] - entry;
     const int32_t *particle = blocks->row_particle + entry, *row = blocks->row + entry;
-    gb_bed_motion_add_rows(bed->force, particle,
-                           (const gb_bed_row *)bed->force + crossings, row, count);
+    gb_bed_batch_add_rows(bed->force, particle,
+                          (const gb_bed_row *)bed->force + crossings, row, count);
     if (bed->law.mu > 0.0) {
-        gb_bed_motion_add_rows(bed->moment, particle,
-                               (const gb_bed_row *)bed->moment + crossings, row, count);
+        gb_bed_batch_add_rows(bed->moment, particle,
+                              (const gb_bed_row *)bed->moment + crossings, row, count);
     }
 }
 
@@ -253,7 +252,7 @@ struct motion {
     struct gb_bed *bed;
     double step;
     struct gb_bed_motion_course course; /* of the whole bed */
-    struct gb_bed_motion_kick kick;
+    struct gb_bed_batch_kick kick;
 };
 
 static void drift_block(void *data, int64_t b)
@@ -264,7 +263,7 @@ static void drift_block(void *data, int64_t b)
     struct gb_bed_motion_course course = motion->course;
     course.from += begin;
     course.velocity += begin;
-    bed->blocks.block[b].deviation2 = gb_bed_motion_drift(
+    bed->blocks.block[b].deviation2 = gb_bed_batch_drift(
         bed->position + begin, (const gb_bed_row *)bed->velocity + begin,
         particles_of(bed, b), motion->step, &course);
 }
@@ -274,12 +273,12 @@ static void kick_block(void *data, int64_t b)
     const struct motion *motion = data;
     struct gb_bed *bed = motion->bed;
     const int64_t begin = gb_bed_blocks_begin(bed->count, b);
-    struct gb_bed_motion_kick by = motion->kick;
+    struct gb_bed_batch_kick by = motion->kick;
     sum_block(bed, b);
     by.force += begin;
     by.moment += begin;
     by.inverse_mass += begin;
-    bed->blocks.block[b].fastest = gb_bed_motion_kick(
+    bed->blocks.block[b].fastest = gb_bed_batch_kick(
         bed->velocity + begin, bed->roll + begin, particles_of(bed, b), &by);
 }
 
@@ -307,7 +306,7 @@ double gb_bed_sweep_drift(struct gb_bed *bed, double step)
     return deviation2;
 }
 
-double gb_bed_sweep_kick(struct gb_bed *bed, const struct gb_bed_motion_kick *by)
+double gb_bed_sweep_kick(struct gb_bed *bed, const struct gb_bed_batch_kick *by)
 {
     struct motion motion = {.bed = bed, .kick = *by};
     double fastest = 0.0;

@@ -68,7 +68,7 @@ static void add_weld(struct gb_bed_welds *welds, const struct gb_bed *bed, int64
     welds->other[k] = j;
     welds->length[k] = ri + rj - bed->pairs.contacts.permanent[slot];
     welds->radius[k] =
-        gb_bed_contacts_radius(&bed->law, gb_law_hertz_radius(ri, rj), overlap);
+        gb_bed_batch_radius(&bed->law, gb_law_hertz_radius(ri, rj), overlap);
     welds->force[0][k] = welds->force[1][k] = welds->force[2][k] = 0.0;
 }
 

@@ -1,9 +1,69 @@
-#include "law/real_f64.h"
+/* The contacts of a bed: storage, the laws over batches of them, and the motion of the particles
+ * in rows.  The terms that a scene does not have are constants, so that a loop skips them. */
+#include "pack/kernel/bed_batch.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/alloc.h"
+#include "greenbody/status.h"
+#include "law/law_storakers.h"
+#include "law/real_f64.h"
 #include "law/springs.h"
 #include "law/storakers.h"
-#include "pack/kernel/bed_batch.h"
 #include "pack/kernel/simd.h"
+
+enum { PLANES = 10 };
+
+bool gb_bed_batch_init(struct gb_bed_contacts *contacts, int64_t room,
+                       struct gb_error *err)
+{
+    const int64_t stride = (room + 7) / 8 * 8 + 8;
+    double *slab = gb_alloc_array((size_t)(PLANES * stride), sizeof *slab, err);
+    *contacts = (struct gb_bed_contacts){.slab = slab, .room = room};
+    if (!slab) {
+        return false;
+    }
+    double **const plane[PLANES] = {
+        &contacts->hertz,      &contacts->damping,  &contacts->inverse_mass,
+        &contacts->transition, &contacts->deepest,  &contacts->permanent,
+        &contacts->shear[0],   &contacts->shear[1], &contacts->shear[2],
+        &contacts->normal,
+    };
+    for (int p = 0; p < PLANES; p++) {
+        *plane[p] = slab + p * stride;
+    }
+    return true;
+}
+
+void gb_bed_batch_finish(struct gb_bed_contacts *contacts)
+{
+    gb_alloc_free(contacts->slab);
+    *contacts = (struct gb_bed_contacts){0};
+}
+
+double gb_bed_batch_radius(const struct gb_bed_law *law, double star, double overlap)
+{
+    return law->storakers ? gb_law_storakers_contact(&law->normal, star, overlap)
+                          : sqrt(star * overlap);
+}
+
+void gb_bed_batch_set(struct gb_bed_contacts *c, int64_t slot,
+                      const struct gb_bed_law *law, const double radius[2],
+                      const double mass[2])
+{
+    const double r = gb_law_hertz_radius(radius[0], radius[1]);
+    const double reduced = gb_law_hertz_radius(mass[0], mass[1]); /* the same formula */
+    c->hertz[slot] = 4.0 / 3.0 * law->normal.hertz.modulus * sqrt(r);
+    c->damping[slot] = gb_law_hertz_damping(1.0, reduced, law->damping);
+    c->inverse_mass[slot] = 1.0 / reduced;
+    c->transition[slot] =
+        law->storakers ? gb_law_storakers_transition(&law->normal, r) : HUGE_VAL;
+    c->deepest[slot] = c->permanent[slot] = 0.0;
+    c->shear[0][slot] = c->shear[1][slot] = c->shear[2][slot] = 0.0;
+    c->normal[slot] = -1.0;
+}
 
 /* What a bed needs; constants where a loop is inlined, so that it computes no more. */
 struct bed_terms {
@@ -245,4 +305,109 @@ gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
         row++;
     }
     return table[row].kernel;
+}
+
+/* Velocities and positions of the particles of a bed, in rows (bed_batch.h). */
+
+/* A row is one vector; the compiler divides it where the processor has shorter ones, with
+ * the same bits.  Macros, for a function that returns such a vector has another calling
+ * convention on every level. */
+typedef double row __attribute__((vector_size(32), aligned(8), may_alias));
+typedef int64_t bits __attribute__((vector_size(32), aligned(8), may_alias));
+
+#define NUMBERS(rows, i) (*(row *)(rows)[i])
+#define READ(rows, i)    (*(const row *)(rows)[i])
+
+/* most = the larger of |x| and most; most where x is not a number. */
+#define LARGER_MAGNITUDE(x, most)                                                        \
+    do {                                                                                 \
+        const row size_ = (row)((bits)(x) & ~(bits)(row){-0.0, -0.0, -0.0, -0.0});       \
+        const bits larger_ = size_ > (most);                                             \
+        (most) = (row)(((bits)size_ & larger_) | ((bits)(most) & ~larger_));             \
+    } while (0)
+
+GB_SIMD_LOOP double square(const double *x)
+{
+    return x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+}
+
+GB_SIMD_LOOP void drift_loop(gb_bed_row *restrict x, const gb_bed_row *restrict v,
+                             int64_t count, double step,
+                             const struct gb_bed_motion_course *course,
+                             double *deviation2)
+{
+    const gb_bed_row *restrict from = course->from, *restrict steady = course->velocity;
+    const row by = {step, step, step, 0.0};
+    const row time = {course->time, course->time, course->time, 0.0};
+    row most = {0.0, 0.0, 0.0, 0.0};
+    for (int64_t i = 0; i < count; i++) {
+        const row now = READ(x, i) + by * READ(v, i);
+        NUMBERS(x, i) = now;
+        LARGER_MAGNITUDE((now - READ(from, i)) - time * READ(steady, i), most);
+    }
+    *deviation2 = square((const double *)&most);
+}
+GB_SIMD_WIDTHS(drift,
+               (gb_bed_row * x, const gb_bed_row *v, int64_t count, double step,
+                const struct gb_bed_motion_course *course, double *deviation2),
+               (x, v, count, step, course, deviation2))
+
+double gb_bed_batch_drift(gb_bed_row *x, const gb_bed_row *v, int64_t count, double step,
+                          const struct gb_bed_motion_course *course)
+{
+    double deviation2;
+    drift(x, v, count, step, course, &deviation2);
+    return deviation2;
+}
+
+GB_SIMD_LOOP void kick_loop(gb_bed_row *restrict v, gb_bed_row *restrict roll,
+                            int64_t count, const struct gb_bed_batch_kick *by,
+                            double *fastest2)
+{
+    const double step = by->step, slow = fmax(1.0 - step * by->drag, 0.0);
+    const row fall = {0.0, 0.0, -by->gravity * step, 0.0}, kept = {slow, slow, slow, 0.0};
+    const row pushed = {step, step, step, 1.0};
+    const gb_bed_row *restrict force = by->force, *restrict moment = by->moment;
+    const double *restrict mass = by->inverse_mass;
+    const double rolled = step / by->inertia;
+    row most = {0.0, 0.0, 0.0, 0.0};
+    for (int64_t i = 0; i < count; i++) {
+        const row speed =
+            kept * READ(v, i) + ((pushed * mass[i]) * READ(force, i) + fall);
+        NUMBERS(v, i) = speed;
+        NUMBERS(roll, i) = slow * READ(roll, i) + (rolled * mass[i]) * READ(moment, i);
+        LARGER_MAGNITUDE(speed, most);
+    }
+    *fastest2 = square((const double *)&most);
+}
+GB_SIMD_WIDTHS(kick,
+               (gb_bed_row * v, gb_bed_row *roll, int64_t count,
+                const struct gb_bed_batch_kick *by, double *fastest2),
+               (v, roll, count, by, fastest2))
+
+double gb_bed_batch_kick(gb_bed_row *v, gb_bed_row *roll, int64_t count,
+                         const struct gb_bed_batch_kick *by)
+{
+    double fastest2;
+    kick(v, roll, count, by, &fastest2);
+    return sqrt(fastest2);
+}
+
+GB_SIMD_LOOP void add_rows_loop(gb_bed_row *restrict to, const int32_t *restrict particle,
+                                const gb_bed_row *restrict from,
+                                const int32_t *restrict number, int64_t count)
+{
+    for (int64_t e = 0; e < count; e++) {
+        NUMBERS(to, particle[e]) += READ(from, number[e]);
+    }
+}
+GB_SIMD_WIDTHS(add_rows,
+               (gb_bed_row * to, const int32_t *particle, const gb_bed_row *from,
+                const int32_t *number, int64_t count),
+               (to, particle, from, number, count))
+
+void gb_bed_batch_add_rows(gb_bed_row *to, const int32_t *particle,
+                           const gb_bed_row *from, const int32_t *number, int64_t count)
+{
+    add_rows(to, particle, from, number, count);
 }

@@ -4,7 +4,48 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pack/die/bed_contacts.h"
+#include "greenbody/status.h"
+#include "law/law_storakers.h"
+
+/* Contact law of a bed: Hertz-Mindlin-Deresiewicz or Storakers, P3 (1)-(22),
+ * the same law between particles and against walls, with its own friction there. */
+struct gb_bed_law {
+    bool storakers;
+    struct gb_law_storakers normal; /* its Hertz part alone unless storakers */
+    double shear;                   /* k_t over k_n */
+    double damping;                 /* xi, share of critical */
+    double mu, mu_wall;
+};
+
+/* Contacts that touch or nearly do, structure of arrays: constants of the two radii,
+ * history, and the normal force of the last evaluation. */
+struct gb_bed_contacts {
+    int64_t room;
+    double *slab;
+    double *hertz;        /* (4/3) E* sqrt R*: force over h^1.5 */
+    double *damping;      /* 2 xi sqrt m*: dashpot over the root of the stiffness */
+    double *inverse_mass; /* one over the reduced mass m* */
+    double *transition;   /* overlap at which Storakers' law becomes plastic */
+    double *deepest, *permanent; /* h_max, and h0 where unloading ends; Storakers only */
+    double *shear[3];            /* force on the first; across the normal of last time */
+    double *normal;              /* f_n of the last evaluation; -1: not touching */
+};
+
+enum { GB_BED_HISTORY = 5 }; /* arrays that are history, deepest to shear */
+
+bool gb_bed_batch_init(struct gb_bed_contacts *contacts, int64_t room,
+                       struct gb_error *err);
+
+void gb_bed_batch_finish(struct gb_bed_contacts *contacts);
+
+/* Radius of a contact that is loaded to this overlap, at effective radius R*: Hertz'
+ * a^2 = R* h or gb_law_storakers_contact. */
+double gb_bed_batch_radius(const struct gb_bed_law *law, double star, double overlap);
+
+/* Constants of slot for a pair of radii and masses (INFINITY: a wall), no history. */
+void gb_bed_batch_set(struct gb_bed_contacts *contacts, int64_t slot,
+                      const struct gb_bed_law *law, const double radius[2],
+                      const double mass[2]);
 
 enum { GB_BED_BATCH = 64 };
 
@@ -72,5 +113,37 @@ struct gb_bed_transfer {
     gb_bed_scatter *scatter;
 };
 struct gb_bed_transfer gb_bed_transfer_pick(int widest);
+
+/* Steady motion that began at `from` a time ago. */
+struct gb_bed_motion_course {
+    const gb_bed_row *from, *velocity;
+    double time;
+};
+
+/* Central differences of positions x: x += step v.  Returns the sum of the squares of the
+ * largest components of the new distance from a course, a bound of its squares that needs no
+ * square of every particle. */
+double gb_bed_batch_drift(gb_bed_row *x, const gb_bed_row *v, int64_t count, double step,
+                          const struct gb_bed_motion_course *course);
+
+/* What changes velocities and rolls (pack/die/bed.h). */
+struct gb_bed_batch_kick {
+    const gb_bed_row *force, *moment;
+    const double *inverse_mass;
+    double inertia; /* over m R^2 */
+    double step;
+    double gravity; /* along -z */
+    double drag;    /* speed lost per time */
+};
+
+/* v += step force/m and roll += step moment/(m inertia).  Returns a bound of the
+ * speed of the fastest particle, from the largest components. */
+double gb_bed_batch_kick(gb_bed_row *v, gb_bed_row *roll, int64_t count,
+                         const struct gb_bed_batch_kick *by);
+
+/* to[particle[e]] += from[number[e]] for e below count, in that order; no row of `from` is one
+ * of `to`. */
+void gb_bed_batch_add_rows(gb_bed_row *to, const int32_t *particle,
+                           const gb_bed_row *from, const int32_t *number, int64_t count);
 
 #endif

@@ -20,7 +20,7 @@ static void read_row(const struct gb_pair_forces *forces, int64_t k, double forc
 {
     const struct gb_engine *engine = &forces->world->engine;
     if (forces->list == &engine->list.near) {
-        gb_pair_results_force(&engine->pair, k, force);
+        gb_engine_pair_force(&engine->pair, k, force);
     } else {
         memcpy(force, engine->pair.pull + 3 * k, 3 * sizeof *force);
     }

@@ -8,6 +8,21 @@
 
 struct gb_world;
 
+/* Contacts that a world in double precision has from one in single precision.  A spring
+ * that slides stays just below its cap there, and rounding hides that: a small strain would
+ * find it sticking both ways.  The same holds for a bridge at its deepest overlap, and for
+ * one that peels.
+ *
+ * Springs within the rounding of single precision of their caps are lengthened to them, and
+ * such bridges put where they are.  The laws of the world's own sweep decide, so this holds
+ * for every law and size.  3D; right after an evaluation, and another must follow.
+ *
+ * most     largest change of a spring or a bridge, d
+ * Errors: GB_ERR_MEMORY. */
+bool gb_pair_tangent_undo(struct gb_world *world, double *most, struct gb_error *err);
+
+struct gb_world;
+
 /* Nine numbers describe the motion of a pair: the branch vector r_ij, the rotation of i,
  * the rotation of j; their conjugates are the force on i (its opposite acts on j) and the
  * torques on i and j. */

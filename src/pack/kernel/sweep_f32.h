@@ -10,7 +10,7 @@ struct gb_force_sums;
 struct gb_pair_list;
 struct gb_tally;
 
-/* The parts of gb_sweep_run in single precision.  All particles are converted before a
+/* The parts of sweep_run in single precision.  All particles are converted before a
  * block is swept.  The rows for a block are added after it and all blocks with rows for
  * it were swept. */
 

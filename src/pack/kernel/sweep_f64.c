@@ -117,7 +117,7 @@ static void sweep_near(struct gb_engine *engine, int64_t begin, int64_t end,
                        double cutoff2, struct gb_tally *tally)
 {
     const int64_t *start = engine->list.near.start;
-    const bool planar = gb_pair_results_planar(&engine->pair);
+    const bool planar = gb_engine_pair_planar(&engine->pair);
     struct gb_batch batch;
     batch.cutoff2 = cutoff2;
     batch.damp = engine->damp;
@@ -144,7 +144,7 @@ static void gather_far(const struct gb_engine *engine, struct gb_batch *restrict
     const int32_t *first = far->first + slot, *other = far->other + slot;
     const uint8_t *image = far->image + slot;
     const double *position = engine->particles.position;
-    const int up = gb_pair_results_planar(&engine->pair) ? 1 : 2, n = batch->n;
+    const int up = gb_engine_pair_planar(&engine->pair) ? 1 : 2, n = batch->n;
     for (int k = 0; k < n; k++) {
         const double *xi = position + 3 * (int64_t)first[k];
         const double *xj = position + 3 * (int64_t)other[k];
@@ -159,7 +159,7 @@ static void scatter_far(struct gb_engine *engine, const struct gb_batch *restric
                         int64_t slot)
 {
     const int32_t *first = engine->list.far.first + slot;
-    const bool planar = gb_pair_results_planar(&engine->pair);
+    const bool planar = gb_engine_pair_planar(&engine->pair);
     const int n = batch->n;
     double *restrict pull = engine->pair.pull + 3 * slot;
     for (int k = 0; k < n; k++, pull += 3) {
@@ -244,7 +244,7 @@ static void collect_far(const struct gb_engine *engine, int64_t j, double *restr
 
 void gb_sweep_f64_collect(struct gb_engine *engine, int64_t begin, int64_t end)
 {
-    const bool planar = gb_pair_results_planar(&engine->pair);
+    const bool planar = gb_engine_pair_planar(&engine->pair);
     for (int64_t j = begin; j < end; j++) {
         (planar ? collect_near_2d : collect_near)(engine, j);
         collect_far(engine, j, engine->particles.force + 3 * j);

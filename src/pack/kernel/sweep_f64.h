@@ -10,7 +10,7 @@ struct gb_engine;
 struct gb_pair_list;
 struct gb_particles;
 
-/* The parts of gb_sweep_run in double precision.  The rows for a particle are added after
+/* The parts of sweep_run in double precision.  The rows for a particle are added after
  * all blocks have been swept.
  *
  * Of unequal sizes rotation increments are arcs, d_i times the angle (equal to the values of

@@ -57,7 +57,7 @@ static bool reserve(struct gb_engine *engine, struct gb_error *err)
     if (near > engine->contacts.capacity) {
         const struct gb_contacts_shape shape = {model->record_dimension, viscous, real};
         if ((real == GB_REAL_F64 &&
-             !gb_pair_results_resize_near(&engine->pair, near, err)) ||
+             !gb_engine_pair_resize_near(&engine->pair, near, err)) ||
             !(engine->contacts.capacity > 0
                   ? grow_contacts(&engine->contacts, near, err)
                   : gb_contacts_init(&engine->contacts, shape, near, err))) {
@@ -65,7 +65,7 @@ static bool reserve(struct gb_engine *engine, struct gb_error *err)
         }
     }
     if (far > engine->pair.far_capacity &&
-        !gb_pair_results_resize_far(
+        !gb_engine_pair_resize_far(
             &engine->pair, far, real,
             viscous ? GB_PAIR_RESULTS_FAR_WORK : GB_PAIR_RESULTS_FAR_FORCE, err)) {
         return false;

@@ -89,4 +89,13 @@ struct gb_chain_ray {
 /* One random ray from particle `origin`; inserts a particle where a candidate is free. */
 bool gb_chain_growth_try(struct gb_chain_ray *growth, int64_t origin);
 
+/* Places the particles of the structure that a model begins with: grown chains, a
+ * lattice, or those of a file.
+ *
+ * position    count x 3, filled with positions inside the cell (y = 0 in 2D)
+ * cancelled   polled with data during growth; NULL is fine
+ * Errors: of gb_chain_growth_run. */
+bool gb_chain_growth_fill(const struct gb_model *model, bool (*cancelled)(void *data),
+                          void *data, double *position, struct gb_error *err);
+
 #endif

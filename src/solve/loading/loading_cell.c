@@ -1,13 +1,44 @@
 #include "solve/loading/loading_cell.h"
 
 #include <inttypes.h>
+#include <stdbool.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "pack/cell/world_record.h"
+#include "pack/structure/chain_growth.h"
 #include "pack/structure/hilbert.h"
-#include "pack/structure/initial_structure.h"
+#include "scene/model.h"
 #include "scene/tolerances.h"
+
+struct gb_compressed_axes gb_loading_cell_of(const struct gb_model *model)
+{
+    struct gb_compressed_axes axes = {
+        .axis = {model->geometry == GB_GEOMETRY_ISOTROPIC,
+                 model->dimension == 3 && model->geometry != GB_GEOMETRY_UNIAXIAL, true}};
+    for (int k = 0; k < 3; k++) {
+        axes.count += axes.axis[k];
+    }
+    return axes;
+}
+
+double gb_loading_cell_mean(const struct gb_compressed_axes *axes,
+                            const double pressure[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        sum += axes->axis[k] ? pressure[k] : 0.0;
+    }
+    return sum / axes->count;
+}
+
+void gb_loading_cell_scale(const struct gb_compressed_axes *axes, double along,
+                           double factor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        factor[k] = axes->axis[k] ? along : 1.0;
+    }
+}
 
 /* Overlap of pair k of particle i, in diameters of the smaller one. */
 static double overlap_of(const struct gb_world *world, int64_t i, int64_t k)
@@ -57,7 +88,7 @@ bool gb_loading_cell_grow(struct gb_loading *loading, bool (*cancelled)(void *da
     if (!position) {
         return false;
     }
-    const bool done = gb_initial_structure_fill(model, cancelled, data, position, err) &&
+    const bool done = gb_chain_growth_fill(model, cancelled, data, position, err) &&
                       (model->packing || gb_hilbert_sort(model, position, err)) &&
                       gb_world_create(&loading->world, model, position, err);
     gb_alloc_free(position);

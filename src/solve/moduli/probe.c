@@ -13,7 +13,6 @@
 #include "greenbody/status.h"
 #include "pack/cell/nonaffine.h"
 #include "pack/cell/world.h"
-#include "pack/kernel/cap_rounding.h"
 #include "pack/kernel/pair_tangent.h"
 #include "scene/tolerances.h"
 
@@ -621,7 +620,7 @@ static bool balance_rounded(struct gb_probe *probe, double first, struct gb_erro
 {
     double most = INFINITY;
     for (int k = 0; k < GB_PROBE_CAPS_ROUNDS && most > GB_PROBE_CAPS; k++) {
-        if (!gb_cap_rounding_undo(probe->world, &most, err) ||
+        if (!gb_pair_tangent_undo(probe->world, &most, err) ||
             !gb_world_evaluate(probe->world, err) || !balance(probe, first, err)) {
             return false;
         }

@@ -18,7 +18,7 @@
 #include "measure/average.h"
 #include "measure/structure.h"
 #include "pack/cell/particles.h"
-#include "pack/structure/initial_structure.h"
+#include "pack/structure/chain_growth.h"
 #include "scene/model.h"
 #include "study/chart/chart.h"
 
@@ -302,7 +302,7 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
     double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
     const bool done = position && g &&
-                      gb_initial_structure_fill(model, NULL, NULL, position, err) &&
+                      gb_chain_growth_fill(model, NULL, NULL, position, err) &&
                       gb_structure_rdf(&cell, model->count, position, half, bins, g, err);
     for (int k = 0; k < bins && done; k++) {
         sum[k] += g[k];

@@ -18,7 +18,7 @@
 #include "run/keep_walk.h"
 #include "scene/loading_kind.h"
 #include "scene/model.h"
-#include "solve/loading/dynamic.h"
+#include "solve/loading/loading_dynamic.h"
 #include "solve/moduli/probe.h"
 #include "solve/relax/relax.h"
 #include "solve/relax/relax_fire.h"
@@ -638,8 +638,9 @@ static double used_in_run(const struct gb_stability_scene *scene)
     motion.scratch =
         gb_alloc_array((size_t)scene->model.count, sizeof *motion.scratch, NULL);
     const double step =
-        motion.scratch ? gb_dynamic_step_allowed(&motion, scene->world, text, sizeof text)
-                       : (double)NAN;
+        motion.scratch
+            ? gb_loading_dynamic_step_allowed(&motion, scene->world, text, sizeof text)
+            : (double)NAN;
     gb_alloc_free(motion.scratch);
     return step;
 }

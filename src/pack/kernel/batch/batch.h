@@ -1,5 +1,5 @@
-#ifndef GB_PACK_KERNEL_BATCH_H
-#define GB_PACK_KERNEL_BATCH_H
+#ifndef GB_PACK_KERNEL_BATCH_BATCH_H
+#define GB_PACK_KERNEL_BATCH_BATCH_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
-#ifndef GB_PACK_KERNEL_BATCH_3D_H
-#define GB_PACK_KERNEL_BATCH_3D_H
+#ifndef GB_PACK_KERNEL_BATCH_BATCH_3D_H
+#define GB_PACK_KERNEL_BATCH_BATCH_3D_H
 
 #include "pack/kernel/batch/batch_laws.h"
 #include "scene/unequal_pair.h"

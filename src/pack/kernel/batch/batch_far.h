@@ -1,5 +1,5 @@
-#ifndef GB_PACK_KERNEL_BATCH_FAR_H
-#define GB_PACK_KERNEL_BATCH_FAR_H
+#ifndef GB_PACK_KERNEL_BATCH_BATCH_FAR_H
+#define GB_PACK_KERNEL_BATCH_BATCH_FAR_H
 
 #include "pack/kernel/batch/batch_laws.h"
 

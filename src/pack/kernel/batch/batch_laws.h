@@ -1,5 +1,5 @@
-#ifndef GB_PACK_KERNEL_BATCH_LAWS_H
-#define GB_PACK_KERNEL_BATCH_LAWS_H
+#ifndef GB_PACK_KERNEL_BATCH_BATCH_LAWS_H
+#define GB_PACK_KERNEL_BATCH_BATCH_LAWS_H
 
 #include "law/springs.h"
 #include "pack/kernel/batch/batch.h"
@@ -7,7 +7,7 @@
 /* The laws of law/normal.h and law/springs.h in loops over a batch.  One source, compiled
  * once per useful combination of terms and per vector width.  Nothing but the order of
  * lanes differs between the widths (contraction is off), so their results are bit-identical.  And
- * once per precision: batch_f64.h or batch_f32.h, included before, defines `real`. */
+ * once per precision: batch.c and batch_f32.c, which include it, define `real` before. */
 
 INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
 {

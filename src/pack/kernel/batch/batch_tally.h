@@ -1,5 +1,5 @@
-#ifndef GB_PACK_KERNEL_BATCH_TALLY_H
-#define GB_PACK_KERNEL_BATCH_TALLY_H
+#ifndef GB_PACK_KERNEL_BATCH_BATCH_TALLY_H
+#define GB_PACK_KERNEL_BATCH_BATCH_TALLY_H
 
 #include "pack/kernel/batch/batch_laws.h"
 

@@ -25,7 +25,7 @@ bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene 
     }
     stages->scene = *scene;
     stages->law = *law;
-    gb_leapfrog_init(&stages->now.leapfrog, scene->safety, scene->time_step);
+    gb_die_state_leapfrog_init(&stages->now.leapfrog, scene->safety, scene->time_step);
     stages->now.leapfrog.gravity = scene->fill_gravity;
     *out = stages;
     return true;
@@ -232,7 +232,7 @@ static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_be
     if (!follow_flow(stages, bed, err)) {
         return GB_STEP_STOPPED;
     }
-    if (!gb_leapfrog_step(&now->leapfrog, bed, err)) {
+    if (!gb_die_state_leapfrog_step(&now->leapfrog, bed, err)) {
         snprintf(why, sizeof why, "%s", err->text);
         return err->code == GB_ERR_GUARD
                    ? halve_time_step(stages, bed, why, text, size, err)

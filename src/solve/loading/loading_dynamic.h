@@ -1,5 +1,5 @@
-#ifndef GB_SOLVE_LOADING_DYNAMIC_H
-#define GB_SOLVE_LOADING_DYNAMIC_H
+#ifndef GB_SOLVE_LOADING_LOADING_DYNAMIC_H
+#define GB_SOLVE_LOADING_LOADING_DYNAMIC_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -51,24 +51,27 @@ struct gb_dynamic {
 };
 
 /* The world must have been evaluated. */
-bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
-                       struct gb_error *err);
-void gb_dynamic_destroy(struct gb_dynamic *motion); /* NULL is fine */
+bool gb_loading_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
+                               struct gb_error *err);
+
+void gb_loading_dynamic_destroy(struct gb_dynamic *motion); /* NULL is fine */
 
 /* At most max_steps time steps.  text (size bytes) receives one line when a guard acted.
  */
-enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_world *world,
-                                        int64_t max_steps, char *text, size_t size,
-                                        struct gb_error *err);
+enum gb_step_outcome gb_loading_dynamic_advance(struct gb_dynamic *motion,
+                                                struct gb_world *world, int64_t max_steps,
+                                                char *text, size_t size,
+                                                struct gb_error *err);
 
 /* Longest time step (T) allowed in the present state of the world: that of the preset, or
  * the automatic one, both bounded by the critical step and by the guard.  text (size
  * bytes) receives one line when the critical step bounds it for the first time. */
-double gb_dynamic_step_allowed(struct gb_dynamic *motion, const struct gb_world *world,
-                               char *text, size_t size);
+double gb_loading_dynamic_step_allowed(struct gb_dynamic *motion,
+                                       const struct gb_world *world, char *text,
+                                       size_t size);
 
 /* Quantities of a recorded point, reduced units. */
-struct gb_dynamic_report {
+struct gb_loading_dynamic_report {
     enum gb_dynamic_stage stage; /* the one that has just been recorded */
     double time;                 /* since the start */
     int64_t steps;               /* since the last point */
@@ -76,14 +79,8 @@ struct gb_dynamic_report {
     double time_step; /* last used */
     double progress;  /* 0..1, by time */
 };
-struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion);
 
-/* Velocities of the particles, valid until the next advance. */
-const struct gb_verlet *gb_dynamic_verlet(const struct gb_dynamic *motion);
-
-/* The motion at a recorded point into a record, or out of it after gb_dynamic_create
- * with the same world.  Errors: GB_ERR_INPUT naming the member. */
-bool gb_dynamic_record(struct gb_dynamic *motion, struct gb_record *record,
-                       struct gb_error *err);
+struct gb_loading_dynamic_report
+gb_loading_dynamic_report(const struct gb_dynamic *motion);
 
 #endif

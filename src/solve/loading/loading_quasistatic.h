@@ -1,12 +1,12 @@
-#ifndef GB_SOLVE_LOADING_QUASISTATIC_H
-#define GB_SOLVE_LOADING_QUASISTATIC_H
+#ifndef GB_SOLVE_LOADING_LOADING_QUASISTATIC_H
+#define GB_SOLVE_LOADING_LOADING_QUASISTATIC_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "base/record.h"
 #include "scene/model.h"
-#include "solve/loading/compressed_axes.h"
+#include "solve/loading/loading_cell.h"
 
 /* The loading schedule of P1 section IV as a state machine: from pressure and density of
  * each relaxed state to the next order.  The caller owns the world and saves its states. */
@@ -35,39 +35,24 @@ struct gb_quasistatic {
     double exceeded, exceeded_by;
 };
 
-void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *model);
-
-/* The state of the schedule out of a record or into it; before loading, gb_quasistatic_init
- * with the same model.  Errors: GB_ERR_INPUT naming the member. */
-bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record,
-                           struct gb_error *err);
+void gb_loading_quasistatic_init(struct gb_quasistatic *load,
+                                 const struct gb_model *model);
 
 /* What follows a relaxed state with this stress (normal pressures in x, y, z; E) and
  * density. factor is filled for STRAIN and UNLOAD. */
-enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
-                                              const double pressure[3], double density,
-                                              double factor[3]);
+enum gb_quasistatic_order gb_loading_quasistatic_next(struct gb_quasistatic *load,
+                                                      const double pressure[3],
+                                                      double density, double factor[3]);
 
 /* Halves the strain step and asks for the same step again (after a guard has tripped and
  * the state before was restored); doubles it again once per relaxed step, up to the
  * preset's. */
-void gb_quasistatic_halve(struct gb_quasistatic *load, double factor[3]);
-void gb_quasistatic_recover(struct gb_quasistatic *load);
+void gb_loading_quasistatic_halve(struct gb_quasistatic *load, double factor[3]);
+
+void gb_loading_quasistatic_recover(struct gb_quasistatic *load);
 
 /* Mean pressure over the compressed axes. */
-double gb_quasistatic_pressure(const struct gb_quasistatic *load,
-                               const double pressure[3]);
-
-/* The goals of params that a schedule which has ended, at this pressure (E) and density,
- * never reached or has exceeded by more than its tolerance: loading.until, pressures of
- * loading.unload_from.  One line into text; false: none. */
-bool gb_quasistatic_missed(const struct gb_quasistatic *load,
-                           const struct gb_params *params, double pascal_per_stress,
-                           double pressure, double density, char *text, size_t size);
-
-/* Share of the schedule that is done, 0..1, by the logarithm of density towards
- * until_density, or of the pressure (loading branch only). */
-double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,
-                               double density, double start_density);
+double gb_loading_quasistatic_pressure(const struct gb_quasistatic *load,
+                                       const double pressure[3]);
 
 #endif
