@@ -9,7 +9,7 @@
 
 #include "api/arguments.h"
 #include "api/parameters_private.h"
-#include "study/law/law_table.h"
+#include "study/law_table.h"
 
 static const struct gb_law_table_law *law_at(size_t index)
 {

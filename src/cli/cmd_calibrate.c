@@ -7,7 +7,7 @@
 #include "cli/lab_input.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "study/calibrate/calibration.h"
+#include "study/calibration.h"
 
 enum { REPLICAS_MIN = 3, REPLICAS_MAX = 1000 };
 

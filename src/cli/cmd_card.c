@@ -10,7 +10,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "figures/card_page.h"
-#include "study/card/card_files.h"
+#include "study/card.h"
 
 /* The options of the command line. */
 struct request {

@@ -14,8 +14,8 @@
 #include "io/preset.h"
 #include "run/cost.h"
 #include "solve/relax/relax.h"
-#include "study/chart/chart_table.h"
-#include "study/chart/quantity_chart.h"
+#include "study/chart_table.h"
+#include "study/quantity_chart.h"
 #include "tui/panel/plot.h"
 
 enum { ROWS = 18, COLUMNS = 78 };

@@ -11,10 +11,10 @@
 #include "io/preset.h"
 #include "many/pool.h"
 #include "scene/field/keep_points.h"
-#include "study/compact/cells.h"
-#include "study/compact/study_text.h"
-#include "study/strength/strength.h"
-#include "study/yield/yield.h"
+#include "study/cells.h"
+#include "study/strength.h"
+#include "study/study_text.h"
+#include "study/yield.h"
 
 /* What the commands on compacts (yield, strength) have in common: options, preset, progress
  * of the cells on stderr, signals. */

@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "io/material.h"
-#include "study/law/law_table.h"
+#include "study/law_table.h"
 
 /* The options of the command line. */
 struct request {

@@ -13,8 +13,8 @@
 #include "cli/progress.h"
 #include "figures/states.h"
 #include "io/preset.h"
-#include "run/keep_walk.h"
-#include "run/moduli/moduli_states.h"
+#include "run/moduli_table.h"
+#include "run/record/kept_states.h"
 #include "scene/loading_kind.h"
 #include "scene/seed.h"
 
@@ -23,23 +23,23 @@ static void print_value(const struct gb_moduli_state *state, const char *column,
                         int digits)
 {
     const int k = gb_moduli_table_find(column);
-    const double error = gb_moduli_states_error(state, k);
+    const double error = gb_moduli_table_error(state, k);
     char text[GB_NUMBER_ERROR_MAX];
-    if (!isfinite(gb_moduli_states_mean(state, k))) {
+    if (!isfinite(gb_moduli_table_mean(state, k))) {
         gb_visible_print(stdout, "-");
         return;
     }
     if (error > 0.0) {
-        gb_number_error(gb_moduli_states_mean(state, k), error, 2, " +- ", text);
+        gb_number_error(gb_moduli_table_mean(state, k), error, 2, " +- ", text);
     } else {
-        g_snprintf(text, sizeof text, "%.*g", digits, gb_moduli_states_mean(state, k));
+        g_snprintf(text, sizeof text, "%.*g", digits, gb_moduli_table_mean(state, k));
     }
     gb_visible_print(stdout, "%s", text);
 }
 
 static double plain(const struct gb_moduli_state *state, const char *column)
 {
-    return gb_moduli_states_mean(state, gb_moduli_table_find(column));
+    return gb_moduli_table_mean(state, gb_moduli_table_find(column));
 }
 
 static void print_matrix(const struct gb_moduli_state *state)
@@ -188,7 +188,7 @@ static bool moduli_folder_begin(const struct moduli_folder *folder,
 }
 
 /* The folder of a run: its own directory, whose table is read to grow, or a folder without
- * moduli.  Errors: as above, and of gb_moduli_states_read. */
+ * moduli.  Errors: as above, and of gb_moduli_table_read. */
 static bool moduli_folder_open(struct moduli_folder *folder, const char *directory,
                                struct gb_error *err)
 {
@@ -199,7 +199,7 @@ static bool moduli_folder_open(struct moduli_folder *folder, const char *directo
     bool good = make(folder, err);
     if (good && g_file_test(path, G_FILE_TEST_EXISTS)) {
         good = gb_file_is_same(directory, folder->path)
-                   ? gb_moduli_states_read(folder->earlier, path, err)
+                   ? gb_moduli_table_read(folder->earlier, path, err)
                    : gb_error_set(err, GB_ERR_INPUT,
                                   "--out %.300s: holds %s already; choose another folder",
                                   folder->path, GB_MODULI_STATES_FILE);
@@ -219,9 +219,9 @@ static bool moduli_folder_write(const struct moduli_folder *folder, const GArray
     GArray *all = g_array_new(FALSE, FALSE, sizeof(struct gb_moduli_state));
     g_array_append_vals(all, folder->earlier->data, folder->earlier->len);
     g_array_append_vals(all, states->data, states->len);
-    gb_moduli_states_sort(all);
+    gb_moduli_table_sort(all);
     char *comment = g_strdup_printf("greenbody %s\n%s", GB_VERSION, folder->command);
-    const bool good = gb_listing_store(gb_moduli_states_listing(all, comment),
+    const bool good = gb_listing_store(gb_moduli_table_listing(all, comment),
                                        folder->path, GB_MODULI_STATES_FILE, err);
     g_free(comment);
     g_array_free(all, TRUE);
@@ -291,7 +291,7 @@ static GArray *list_states(const struct collector *collector)
         }
     }
     if (collector->total == 0) {
-        gb_moduli_states_sort(list);
+        gb_moduli_table_sort(list);
     }
     return list;
 }
@@ -307,11 +307,11 @@ static void add_to_points(struct collector *collector,
     }
     for (int k = 0; k < collector->points.count; k++) {
         if (what & 1U << k) {
-            gb_moduli_states_add(state_at(collector, (guint)k), row);
+            gb_moduli_table_add(state_at(collector, (guint)k), row);
         }
     }
     if (what & GB_KEEP_WALK_END) {
-        gb_moduli_states_add(state_at(collector, (guint)collector->points.count), row);
+        gb_moduli_table_add(state_at(collector, (guint)collector->points.count), row);
     }
     collector->reached |= what;
 }
@@ -322,7 +322,7 @@ static bool add_row(void *data, const struct gb_moduli_table_row *row,
     struct collector *collector = data;
     if (collector->total > 0) {
         struct gb_moduli_state state = {0};
-        gb_moduli_states_add(&state, row);
+        gb_moduli_table_add(&state, row);
         g_array_append_val(collector->state, state);
     } else {
         add_to_points(collector, row);
@@ -340,13 +340,13 @@ static bool add_row(void *data, const struct gb_moduli_table_row *row,
 static bool is_new(void *data, int64_t step)
 {
     const struct collector *collector = data;
-    return !gb_moduli_states_has(collector->folder.earlier, step);
+    return !gb_moduli_table_has(collector->folder.earlier, step);
 }
 
 static void print_states(const struct request *request, const GArray *states)
 {
     if (request->csv || request->json) {
-        gb_options_print(gb_listing_end(gb_moduli_states_listing(states, NULL),
+        gb_options_print(gb_listing_end(gb_moduli_table_listing(states, NULL),
                                         request->json ? GB_LISTING_JSON : GB_LISTING_CSV),
                          NULL); /* main reports an error of stdout */
         return;

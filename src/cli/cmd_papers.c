@@ -10,7 +10,7 @@
 #include "cli/progress.h"
 #include "figures/papers_figures.h"
 #include "run/cost.h"
-#include "study/papers/papers.h"
+#include "study/papers.h"
 
 enum { COUNT_MIN = 50, COUNT_MAX = 1000000, CELLS_MAX = 1000 };
 

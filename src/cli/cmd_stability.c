@@ -14,7 +14,7 @@
 #include "io/preset.h"
 #include "scene/loading_kind.h"
 #include "scene/tolerances.h"
-#include "study/stability/stability.h"
+#include "study/stability.h"
 
 static void add_row(struct gb_listing *listing, const struct gb_stability_row *row)
 {

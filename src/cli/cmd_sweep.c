@@ -10,7 +10,7 @@
 #include "cli/progress.h"
 #include "many/param_sweep.h"
 #include "run/cost.h"
-#include "study/sensitivity/sensitivity.h"
+#include "study/sensitivity.h"
 
 enum { REPLICAS_MAX = 100000 };
 

@@ -15,7 +15,7 @@
 #include "io/material.h"
 #include "io/preset_folders.h"
 #include "measure/equations.h"
-#include "study/law/law_table.h"
+#include "study/law_table.h"
 #include "tui/term/settings.h"
 
 /* Continuations of a word, printed to stdout as they are found. */

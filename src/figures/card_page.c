@@ -10,8 +10,8 @@
 #include "figures/figures.h"
 #include "figures/page.h"
 #include "figures/plotting.h"
-#include "study/card/card_files.h"
-#include "study/compact/study_text.h"
+#include "study/card.h"
+#include "study/study_text.h"
 
 enum { WIDTH = 900, HEIGHT = 640 };
 

@@ -1,7 +1,7 @@
 #ifndef GB_FIGURES_CARD_PAGE_H
 #define GB_FIGURES_CARD_PAGE_H
 
-#include "study/card/card.h"
+#include "study/card.h"
 
 /* The folder of a card: card.csv, card_points.csv, card_uniaxial.csv, card.inp, the figures
  * surfaces.png and uniaxial.png with their data, and the page over them as HTML and

@@ -9,7 +9,7 @@
 #include "measure/cap.h"
 #include "measure/yield_point.h"
 #include "scene/field/keep_points.h"
-#include "study/strength/strength.h"
+#include "study/strength.h"
 
 /* A table of the directory of `greenbody yield` or `greenbody strength`, which is the one
  * word of the input.

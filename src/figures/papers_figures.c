@@ -8,8 +8,8 @@
 #include "figures/plotting.h"
 #include "io/preset.h"
 #include "many/runset.h"
-#include "study/papers/papers.h"
-#include "study/papers/papers_comparisons.h"
+#include "study/papers.h"
+#include "study/papers_comparisons.h"
 
 /* Keys that change how well a scene is computed and how much of it. */
 static const char *const ignored[] = {"particles.count",     "structure.base",

@@ -2,7 +2,7 @@
 #define GB_FIGURES_PAPERS_FIGURES_H
 
 #include "figures/figures.h"
-#include "study/papers/papers.h"
+#include "study/papers.h"
 
 /* Adds the numbers that the papers print for a figure (assets/data/papers.csv) as hollow
  * marks with their errors, where a run of the set is of the scene that they are compared

@@ -18,7 +18,7 @@
 #include "many/runset.h"
 #include "measure/average.h"
 #include "measure/compaction_fits.h"
-#include "run/moduli/moduli_states.h"
+#include "run/moduli_table.h"
 #include "scene/derived.h"
 #include "scene/field/field.h"
 #include "scene/loading_kind.h"
@@ -592,7 +592,7 @@ static bool is_end(const struct gb_runset_run *run, const struct gb_moduli_state
         run->table != NULL ? gb_table_column(run->table, "step", NULL) : NULL;
     const size_t rows = steps != NULL ? gb_table_rows(run->table) : 0;
     return rows > 0 &&
-           steps[rows - 1] == gb_moduli_states_mean(state, gb_moduli_table_find("step"));
+           steps[rows - 1] == gb_moduli_table_mean(state, gb_moduli_table_find("step"));
 }
 
 /* A modulus of the last state of each run of a group, of those whose moduli.csv has it. */
@@ -608,15 +608,15 @@ static void put_modulus(struct gb_report_table *table, const struct gb_runset *s
     for (size_t i = 0; i < set->count; i++) {
         GArray *states = g_array_new(FALSE, FALSE, sizeof(struct gb_moduli_state));
         char *path = g_build_filename(set->run[i].directory, GB_MODULI_STATES_FILE, NULL);
-        if (set->run[i].group == group && gb_moduli_states_read(states, path, NULL) &&
+        if (set->run[i].group == group && gb_moduli_table_read(states, path, NULL) &&
             states->len > 0) {
-            gb_moduli_states_sort(states);
+            gb_moduli_table_sort(states);
             const struct gb_moduli_state *last =
                 &g_array_index(states, struct gb_moduli_state, states->len - 1);
             if (is_end(&set->run[i], last)) {
                 values[result.cells++] =
-                    gb_moduli_states_mean(last, gb_moduli_table_find(column));
-                own = gb_moduli_states_error(last, gb_moduli_table_find(column));
+                    gb_moduli_table_mean(last, gb_moduli_table_find(column));
+                own = gb_moduli_table_error(last, gb_moduli_table_find(column));
             }
         }
         g_free(path);

@@ -11,7 +11,7 @@
 /* The columns of a recorded point: one row per member of struct gb_point, in its order.
  * curve.csv, status.json, state.h5, checkpoints, the library and Python iterate over these
  * rows.  A new quantity needs a member, a row, and the line that measures it
- * (run/packing_state.c). */
+ * (run/experiment.c). */
 
 /* Kinds of scenes: bits of enum gb_curve_columns. */
 enum {

@@ -15,7 +15,7 @@
 #include "io/store.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
-#include "run/record/writer.h"
+#include "run/record/run_recorder.h"
 
 enum { TIMES = 15 };
 
@@ -55,16 +55,17 @@ static bool time_one(struct timing *timing, int k, struct gb_experiment *experim
                      struct gb_error *err)
 {
     double start = gb_clock_s();
-    if (!gb_checkpoint_take(experiment, gb_writer_record(writer), err)) {
+    if (!gb_checkpoint_take(experiment, gb_run_recorder_record(writer), err)) {
         return false;
     }
     timing->held[k] = gb_clock_s() - start;
     start = gb_clock_process_s();
-    if (gb_writer_send(writer, err) != GB_WRITER_SENT || !gb_writer_wait(writer, err)) {
+    if (gb_run_recorder_send(writer, err) != GB_WRITER_SENT ||
+        !gb_run_recorder_wait(writer, err)) {
         return false;
     }
     timing->processor[k] = gb_clock_process_s() - start;
-    timing->written[k] = gb_writer_seconds(writer);
+    timing->written[k] = gb_run_recorder_writer_seconds(writer);
     return copy_file(gb_store_directory(store), &timing->disk[k], &timing->bytes, err);
 }
 
@@ -74,13 +75,14 @@ static bool time_all(struct timing *timing, struct gb_experiment *experiment,
 {
     struct gb_store *store = NULL;
     struct gb_writer *writer = NULL;
-    bool good = gb_store_create(&store, folder, params, GB_RUNDIR_KEEP, err) &&
-                gb_writer_create(&writer, store, params, experiment->model, err);
+    bool good =
+        gb_store_create(&store, folder, params, GB_RUNDIR_KEEP, err) &&
+        gb_run_recorder_writer_create(&writer, store, params, experiment->model, err);
     /* the first one allocates the arrays and is not counted */
     for (int k = -1; good && k < TIMES; k++) {
         good = time_one(timing, k < 0 ? 0 : k, experiment, store, writer, err);
     }
-    gb_writer_destroy(writer);
+    gb_run_recorder_writer_destroy(writer);
     gb_store_discard(store);
     return good;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "figures/report.h"
-#include "run/moduli/moduli_states.h"
+#include "run/moduli_table.h"
 
 /* Captions are numbered from 1 on, and name the conditions of the runs where they show
  * data. */
@@ -76,10 +76,9 @@ static void write_moduli(const char *directory, double step, double young)
     struct gb_moduli_state state = {0};
     row.value[gb_moduli_table_find("step")] = step;
     row.value[gb_moduli_table_find("E_GPa")] = young;
-    gb_moduli_states_add(&state, &row);
+    gb_moduli_table_add(&state, &row);
     g_array_append_val(states, state);
-    GString *text =
-        gb_listing_end(gb_moduli_states_listing(states, NULL), GB_LISTING_CSV);
+    GString *text = gb_listing_end(gb_moduli_table_listing(states, NULL), GB_LISTING_CSV);
     figure_folder_write(directory, GB_MODULI_STATES_FILE, text->str);
     g_string_free(text, TRUE);
     g_array_unref(states);

@@ -6,7 +6,6 @@
 #include "pack/cell/world.h"
 #include "run/cost.h"
 #include "run/experiment.h"
-#include "run/quick.h"
 
 /* P2's scene at its slowest rate, v5, with the paper's step. */
 static struct gb_params slowest(void)
@@ -151,7 +150,7 @@ static void test_from_quick(void)
     full.count = 8000;
     full.fidelity = GB_FIDELITY_FAST;
     full.unload_count = 0;
-    g_assert_true(gb_quick_params(&full, &quick));
+    g_assert_true(gb_cost_params(&full, &quick));
     g_assert_cmpfloat(gb_cost_from_quick(&full, &quick, 2.0), ==, 16.0);
     full.fidelity = GB_FIDELITY_BALANCED;
     const double balanced = gb_cost_from_quick(&full, &quick, 2.0);

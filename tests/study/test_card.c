@@ -4,9 +4,8 @@
 #include <glib.h>
 #include <gsl/gsl_errno.h>
 
-#include "study/card/card.h"
-#include "study/card/card_files.h"
-#include "study/compact/compact.h"
+#include "study/card.h"
+#include "study/compact.h"
 
 enum { LEVELS = 3, CELLS = 4 };
 

@@ -6,7 +6,7 @@
 #include <glib/gstdio.h>
 
 #include "common/scene.h"
-#include "study/chart/chart_table.h"
+#include "study/chart_table.h"
 
 static struct gb_params small_scene(void)
 {

@@ -6,7 +6,7 @@
 
 #include "common/scene.h"
 #include "scene/model.h"
-#include "study/law/law_table.h"
+#include "study/law_table.h"
 
 enum { ROWS_MAX = 1024 };
 
@@ -45,7 +45,7 @@ static void test_range(void)
     struct gb_model model;
     char range[] = "h=0:0.1:11";
     const struct gb_law_table_request request = {.law = gb_law_table_find("rod"),
-                                                .range = range};
+                                                 .range = range};
     g_assert_true(gb_model_init(&model, &params, &err));
     g_assert_true(compute(&rows, &request, &err));
     g_assert_cmpint(rows.count, ==, 11);
@@ -64,7 +64,7 @@ static void test_path(void)
     struct gb_error err = {0};
     char path[] = "0,0.03,0.025";
     const struct gb_law_table_request request = {.law = gb_law_table_find("normal"),
-                                                .path = path};
+                                                 .path = path};
     g_assert_true(compute(&rows, &request, &err));
     g_assert_cmpint(rows.count, ==, 1 + 2 * 200);
     const double in = rows.value[167][1], out = rows.value[400][1];
@@ -111,7 +111,7 @@ static void test_errors(void)
     struct gb_error err = {0};
     char range[] = "h=0:0.1:11", beyond[] = "h=0:2:11";
     struct gb_law_table_request request = {.law = gb_law_table_find("rod"),
-                                          .range = range};
+                                           .range = range};
     g_assert_false(compute(&rows, &request, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
     g_assert_cmpint(rows.count, ==, 3);

@@ -5,8 +5,8 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "study/papers/papers.h"
-#include "study/papers/papers_comparisons.h"
+#include "study/papers.h"
+#include "study/papers_comparisons.h"
 
 static struct gb_papers_numbers numbers;
 

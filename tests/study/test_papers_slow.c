@@ -8,7 +8,7 @@
 #include "common/tree.h"
 #include "many/pool.h"
 #include "many/single_run.h"
-#include "study/papers/papers.h"
+#include "study/papers.h"
 
 /* A comparison with the printed number +- accept; the name as in the table. */
 static const struct target {

@@ -11,7 +11,7 @@
 #include "common/scene.h"
 #include "common/tree.h"
 #include "many/single_run.h"
-#include "study/chart/quantity_chart.h"
+#include "study/quantity_chart.h"
 
 static struct gb_params scene_of(const struct gb_quantity_study *study)
 {

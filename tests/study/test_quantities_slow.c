@@ -7,7 +7,7 @@
 
 #include "common/tree.h"
 #include "io/preset.h"
-#include "study/chart/quantity_chart.h"
+#include "study/quantity_chart.h"
 
 /* The scene of a study, and cells enough to tell a shift of half an interval from scatter:
  * what was pressed with other numerics is another cell. */
@@ -96,7 +96,8 @@ static void test_study(const void *data)
     int moved = 0;
     g_test_message("quantity             unit     default    interval     tighter    "
                    "shift     /half  cost");
-    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities();
+         row->name != NULL; row++) {
         moved += row->study == study && !compare(&chart, row);
     }
     if (moved > 0) {
@@ -112,7 +113,8 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     folder = g_dir_make_tmp("gb-tighter-XXXXXX", NULL);
     const struct gb_quantity_study *last = NULL;
-    for (const struct gb_quantity *row = gb_quantity_chart_quantities(); row->name != NULL; row++) {
+    for (const struct gb_quantity *row = gb_quantity_chart_quantities();
+         row->name != NULL; row++) {
         if (row->study != last) { /* rows of a study follow each other */
             char *path = g_strconcat("/tighter/", row->study->name, NULL);
             g_test_add_data_func(path, row->study, test_study);

@@ -10,9 +10,9 @@
 #include "common/scene.h"
 #include "common/tree.h"
 #include "measure/elastic.h"
-#include "study/card/card.h"
-#include "study/strength/strength.h"
-#include "study/yield/yield.h"
+#include "study/card.h"
+#include "study/strength.h"
+#include "study/yield.h"
 
 static const double tighter = 0.2;
 

@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "solve/relax/relax_fire.h"
-#include "study/stability/stability.h"
+#include "study/stability.h"
 
 static void test_sides(void)
 {
@@ -159,9 +159,10 @@ static void test_relaxers(void)
     g_assert_cmpint(rows.count, ==, 6);
     g_assert_cmpint(rows.in_use, ==, 2);
     g_assert_cmpfloat(rows.p_pa, >=, 30e6);
-    const char *const sizes[] = {"particles.count=200", "particles.distribution=lognormal",
-                                 "particles.sigma=0.3", "loading.until=5 MPa",
-                                 "loading.unload_from=", NULL};
+    const char *const sizes[] = {
+        "particles.count=200",  "particles.distribution=lognormal",
+        "particles.sigma=0.3",  "loading.until=5 MPa",
+        "loading.unload_from=", NULL};
     g_assert_cmpint(run_scene(sizes, "").count, ==, 3);
 }
 

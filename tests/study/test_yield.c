@@ -7,8 +7,8 @@
 
 #include "common/scene.h"
 #include "common/tree.h"
-#include "study/compact/compact.h"
-#include "study/yield/yield.h"
+#include "study/compact.h"
+#include "study/yield.h"
 
 static char *folder;
 

@@ -6,8 +6,8 @@
 
 #include "common/tree.h"
 #include "io/preset.h"
-#include "study/strength/strength.h"
-#include "study/yield/yield.h"
+#include "study/strength.h"
+#include "study/yield.h"
 
 enum { CELLS = 16 };
 

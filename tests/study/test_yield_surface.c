@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "study/yield/yield_surface.h"
+#include "study/yield.h"
 
 enum { CELLS = 8, DIRECTIONS = 12 };
 

@@ -2,22 +2,226 @@
 
 #include <glib.h>
 #include <math.h>
+#include <pthread.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/record.h"
+#include "base/team.h"
 #include "hdf/hdf_record.h"
 #include "io/follow.h"
 #include "io/rundir.h"
 #include "io/state_record.h"
+#include "io/store.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/record/kept_states.h"
 #include "run/record/live_export.h"
 #include "run/record/run_journal.h"
-#include "run/record/writer.h"
 #include "run/repeat_points.h"
+#include "scene/model.h"
+
+struct gb_writer {
+    /* const once the thread runs */
+    const struct gb_store *store;
+    const struct gb_params *params;
+    const struct gb_model *model;
+    pthread_t thread;
+    pid_t process; /* that has the thread; a child of it has none */
+
+    /* guarded by the mutex */
+    pthread_mutex_t mutex;
+    pthread_cond_t change;
+    bool busy, quit;
+    bool writing_status;
+    char *status;        /* the next one; NULL: none */
+    struct gb_error err; /* the first failure; nothing is written after it */
+    double seconds;      /* that the last state took */
+
+    struct gb_record record; /* the thread reads it while busy; else the engine's */
+};
+
+static void write_record(const struct gb_writer *writer, const struct gb_record *record,
+                         struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    if (gb_state_record_to_write(&state, record, writer->params, writer->model, err)) {
+        gb_store_state(writer->store, state, record, err);
+    }
+    gb_state_destroy(state);
+}
+
+static void finish_write(struct gb_writer *writer, const struct gb_error *err)
+{
+    if (writer->err.code == GB_OK) {
+        writer->err = *err;
+    }
+    pthread_cond_broadcast(&writer->change);
+}
+
+/* Both are called with the mutex held and release it while they write. */
+static void write_state(struct gb_writer *writer)
+{
+    struct gb_error err = {0};
+    pthread_mutex_unlock(&writer->mutex);
+    const double from = gb_clock_s();
+    write_record(writer, &writer->record, &err);
+    pthread_mutex_lock(&writer->mutex);
+    writer->seconds = gb_clock_s() - from;
+    writer->busy = false;
+    finish_write(writer, &err);
+}
+
+static void write_status(struct gb_writer *writer)
+{
+    char *text = g_steal_pointer(&writer->status);
+    struct gb_error err = {0};
+    writer->writing_status = true;
+    pthread_mutex_unlock(&writer->mutex);
+    (void)gb_store_put_status(writer->store, text, &err);
+    g_free(text);
+    pthread_mutex_lock(&writer->mutex);
+    writer->writing_status = false;
+    finish_write(writer, &err);
+}
+
+static void *work(void *data)
+{
+    struct gb_writer *writer = data;
+    pthread_mutex_lock(&writer->mutex);
+    for (;;) {
+        if (writer->busy) {
+            write_state(writer);
+        } else if (writer->status != NULL) {
+            write_status(writer);
+        } else if (writer->quit) {
+            break;
+        } else {
+            pthread_cond_wait(&writer->change, &writer->mutex);
+        }
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return NULL;
+}
+
+bool gb_run_recorder_writer_create(struct gb_writer **out, const struct gb_store *store,
+                                   const struct gb_params *params,
+                                   const struct gb_model *model, struct gb_error *err)
+{
+    struct gb_writer *writer = gb_alloc_array(1, sizeof *writer, err);
+    if (!writer) {
+        return false;
+    }
+    writer->store = store;
+    writer->params = params;
+    writer->model = model;
+    writer->process = getpid();
+    pthread_mutex_init(&writer->mutex, NULL);
+    pthread_cond_init(&writer->change, NULL);
+    if (!gb_team_start_thread(&writer->thread, work, writer, "the writer thread", err)) {
+        pthread_cond_destroy(&writer->change);
+        pthread_mutex_destroy(&writer->mutex);
+        gb_alloc_free(writer);
+        return false;
+    }
+    *out = writer;
+    return true;
+}
+
+void gb_run_recorder_writer_destroy(struct gb_writer *writer)
+{
+    if (!writer) {
+        return;
+    }
+    if (writer->process == getpid()) {
+        pthread_mutex_lock(&writer->mutex);
+        writer->quit = true;
+        pthread_cond_broadcast(&writer->change);
+        pthread_mutex_unlock(&writer->mutex);
+        pthread_join(writer->thread, NULL);
+        pthread_cond_destroy(&writer->change);
+        pthread_mutex_destroy(&writer->mutex);
+    }
+    g_free(writer->status);
+    gb_record_finish(&writer->record);
+    gb_alloc_free(writer);
+}
+
+struct gb_record *gb_run_recorder_record(struct gb_writer *writer)
+{
+    return &writer->record;
+}
+
+static bool writer_busy(struct gb_writer *writer)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const bool busy = writer->busy;
+    pthread_mutex_unlock(&writer->mutex);
+    return busy;
+}
+
+enum gb_writer_outcome gb_run_recorder_send(struct gb_writer *writer,
+                                            struct gb_error *err)
+{
+    enum gb_writer_outcome outcome = GB_WRITER_BUSY;
+    pthread_mutex_lock(&writer->mutex);
+    if (writer->busy) {
+        outcome = GB_WRITER_BUSY;
+    } else if (writer->err.code != GB_OK) {
+        *err = writer->err;
+        outcome = GB_WRITER_FAILED;
+    } else {
+        writer->busy = true;
+        pthread_cond_broadcast(&writer->change);
+        outcome = GB_WRITER_SENT;
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return outcome;
+}
+
+/* Replaces status.json by text, which belongs to the writer from now on; it supersedes a
+ * text that still waits.  False with err when writing has failed before. */
+static bool writer_status(struct gb_writer *writer, char *text, struct gb_error *err)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const bool good = writer->err.code == GB_OK;
+    if (good) {
+        g_free(writer->status);
+        writer->status = text;
+        pthread_cond_broadcast(&writer->change);
+    } else {
+        g_free(text);
+        *err = writer->err;
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return good;
+}
+
+bool gb_run_recorder_wait(struct gb_writer *writer, struct gb_error *err)
+{
+    pthread_mutex_lock(&writer->mutex);
+    while (writer->busy || writer->writing_status || writer->status != NULL) {
+        pthread_cond_wait(&writer->change, &writer->mutex);
+    }
+    const bool good = writer->err.code == GB_OK;
+    if (!good) {
+        *err = writer->err;
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return good;
+}
+
+double gb_run_recorder_writer_seconds(struct gb_writer *writer)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const double seconds = writer->seconds;
+    pthread_mutex_unlock(&writer->mutex);
+    return seconds;
+}
 
 /* The record of the last point of a run: the writer's.  Taking it costs as much as some
  * evaluations, so it is taken at some of the points only, not while it is being written, and
@@ -53,7 +257,7 @@ static bool held_record_due(const struct held_record *held,
     const double age_s = gb_clock_s() - held->taken_s; /* negative: the clock went back */
     return gb_experiment_over(experiment) ||
            ((!held->fresh || age_s < 0.0 || age_s >= allowed_s) &&
-            !gb_writer_busy(held->writer));
+            !writer_busy(held->writer));
 }
 
 /* Right after a point: takes its record, without the journal, as soon as the last one is
@@ -61,11 +265,12 @@ static bool held_record_due(const struct held_record *held,
 static bool held_record_take(struct held_record *held, struct gb_experiment *experiment,
                              struct gb_error *err)
 {
-    if (!gb_writer_wait(held->writer, err)) {
+    if (!gb_run_recorder_wait(held->writer, err)) {
         return false;
     }
     const double from_s = gb_clock_s();
-    const bool good = gb_checkpoint_take(experiment, gb_writer_record(held->writer), err);
+    const bool good =
+        gb_checkpoint_take(experiment, gb_run_recorder_record(held->writer), err);
     held->taken_s = gb_clock_s();
     held->cost_s = held->taken_s - from_s;
     return good;
@@ -80,7 +285,7 @@ static void held_record_skip(struct held_record *held, const struct gb_point *po
 static bool held_record_complete(struct held_record *held, struct gb_error *err)
 {
     held->fresh =
-        gb_run_journal_record(&held->journal, gb_writer_record(held->writer), err);
+        gb_run_journal_record(&held->journal, gb_run_recorder_record(held->writer), err);
     held->missing = -1;
     return held->fresh;
 }
@@ -91,9 +296,9 @@ static bool held_record_complete(struct held_record *held, struct gb_error *err)
  * Errors: GB_ERR_MEMORY. */
 static bool held_record_catch_up(struct held_record *held, struct gb_error *err)
 {
-    struct gb_record *record = gb_writer_record(held->writer);
+    struct gb_record *record = gb_run_recorder_record(held->writer);
     struct gb_error why = {0};
-    if (held->missing < 0 || gb_writer_busy(held->writer)) {
+    if (held->missing < 0 || writer_busy(held->writer)) {
         return true;
     }
     if (gb_repeat_points_record(record, held->params, held->missing, &why)) {
@@ -144,8 +349,8 @@ static bool create(struct gb_run_recorder **out, const struct gb_params *params,
 
 static bool start_writer(struct gb_run_recorder *recorder, struct gb_error *err)
 {
-    if (!gb_writer_create(&recorder->writer, recorder->store, &recorder->params,
-                          &recorder->model, err)) {
+    if (!gb_run_recorder_writer_create(&recorder->writer, recorder->store,
+                                       &recorder->params, &recorder->model, err)) {
         return false;
     }
     held_record_init(&recorder->held, &recorder->params, recorder->writer);
@@ -310,7 +515,7 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
 /* Ends all but the store. */
 static void end(struct gb_run_recorder *recorder)
 {
-    gb_writer_destroy(recorder->writer);
+    gb_run_recorder_writer_destroy(recorder->writer);
     gb_live_export_finish(&recorder->live);
 }
 
@@ -378,7 +583,7 @@ static bool keep(struct gb_run_recorder *recorder, const struct gb_point *point,
                  struct gb_error *err)
 {
     const struct gb_rundir *dir = gb_store_rundir(recorder->store);
-    const struct gb_record *record = gb_writer_record(recorder->writer);
+    const struct gb_record *record = gb_run_recorder_record(recorder->writer);
     if (!gb_state_record(state, record, &recorder->params, &recorder->model, err)) {
         return false;
     }
@@ -425,7 +630,7 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
                        &names);
     gb_kept_states_pass(&recorder->states, point);
     note_point(recorder, point->seconds);
-    const bool free = !gb_writer_busy(recorder->writer);
+    const bool free = !writer_busy(recorder->writer);
     if (names.count > 0 || (free && checkpoint_due(recorder, point->seconds)) ||
         held_record_due(&recorder->held, experiment)) {
         return record_state(recorder, experiment, point, &names, err);
@@ -467,7 +672,7 @@ bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
         !(now || checkpoint_due(recorder, seconds))) {
         return true;
     }
-    switch (gb_writer_send(recorder->writer, err)) {
+    switch (gb_run_recorder_send(recorder->writer, err)) {
     case GB_WRITER_SENT:
         recorder->held.fresh = false;
         recorder->written_at = seconds;
@@ -484,8 +689,8 @@ bool gb_run_recorder_status(struct gb_run_recorder *recorder,
                             const struct gb_snapshot *snapshot, struct gb_error *err)
 {
     return recorder->writer
-               ? gb_writer_status(recorder->writer,
-                                  gb_store_status_text(recorder->store, snapshot), err)
+               ? writer_status(recorder->writer,
+                               gb_store_status_text(recorder->store, snapshot), err)
                : gb_store_status(recorder->store, snapshot, err);
 }
 
@@ -497,7 +702,7 @@ void gb_run_recorder_fail(struct gb_run_recorder *recorder,
         return;
     }
     /* a status that is still being written must not replace this one */
-    (void)(!recorder->writer || gb_writer_wait(recorder->writer, &ignored));
+    (void)(!recorder->writer || gb_run_recorder_wait(recorder->writer, &ignored));
     (void)gb_store_sync(recorder->store, &ignored);
     (void)gb_store_status(recorder->store, snapshot, &ignored);
 }
@@ -506,9 +711,9 @@ bool gb_run_recorder_save(struct gb_run_recorder *recorder, double seconds,
                           struct gb_error *err)
 {
     return !recorder->writer ||
-           (gb_writer_wait(recorder->writer, err) &&
+           (gb_run_recorder_wait(recorder->writer, err) &&
             gb_run_recorder_tick(recorder, seconds, GB_RUN_RECORDER_NOW, err) &&
-            gb_writer_wait(recorder->writer, err));
+            gb_run_recorder_wait(recorder->writer, err));
 }
 
 bool gb_run_recorder_missed(struct gb_run_recorder *recorder, char *text, size_t size)

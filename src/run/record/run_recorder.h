@@ -3,8 +3,43 @@
 
 #include <stdbool.h>
 
+#include "base/record.h"
 #include "io/store.h"
 #include "run/experiment.h"
+#include "scene/model.h"
+
+/* Writes states and status in a thread of its own: the engine fills a record, the thread
+ * writes the file and waits for the disk.  There is one record, the largest thing that a
+ * run holds beside its packing.  The thread blocks all signals. */
+struct gb_writer;
+
+/* store, params and model must outlive the writer. */
+bool gb_run_recorder_writer_create(struct gb_writer **out, const struct gb_store *store,
+                                   const struct gb_params *params,
+                                   const struct gb_model *model, struct gb_error *err);
+
+/* Waits for files under way.  NULL is fine. */
+void gb_run_recorder_writer_destroy(struct gb_writer *writer);
+
+/* The record.  It belongs to the engine but for the time from gb_run_recorder_send until it is
+ * written, and stays as it was sent. */
+struct gb_record *gb_run_recorder_record(struct gb_writer *writer);
+
+enum gb_writer_outcome {
+    GB_WRITER_SENT,
+    GB_WRITER_BUSY,  /* the record is still being written */
+    GB_WRITER_FAILED /* writing has failed before: err */
+};
+
+/* Hands the record over. */
+enum gb_writer_outcome gb_run_recorder_send(struct gb_writer *writer,
+                                            struct gb_error *err);
+
+/* Waits until nothing is being written; false and err when writing has failed. */
+bool gb_run_recorder_wait(struct gb_writer *writer, struct gb_error *err);
+
+/* Seconds that the last state took to be written; 0 before the first. */
+double gb_run_recorder_writer_seconds(struct gb_writer *writer);
 
 /* Records a run in its directory: rows, events, status, checkpoints.
  *

@@ -7,7 +7,7 @@
 #include "many/param_sweep.h"
 #include "scene/field/keep_points.h"
 #include "scene/loading_kind.h"
-#include "study/calibrate/calibration.h"
+#include "study/calibration.h"
 #include "tui/app/app.h"
 #include "tui/app/dialogs.h"
 #include "tui/app/key_commands.h"

@@ -20,11 +20,11 @@
 #include "base/table.h"
 #include "greenbody/params.h"
 #include "greenbody/status.h"
-#include "run/moduli/moduli_states.h"
+#include "run/moduli_table.h"
 #include "runner/runner.h"
 #include "scene/loading_kind.h"
 #include "scene/tolerances.h"
-#include "study/chart/chart.h"
+#include "study/chart.h"
 #include "tui/session/runset_view.h"
 
 /* Jobs in the background.  A job is a command of this program as a child process; what it
@@ -183,7 +183,7 @@ static void moduli_job_read_table(struct gb_moduli_job *job, const char *directo
     GArray *states = g_array_new(FALSE, TRUE, sizeof(struct gb_moduli_state));
     char *path = g_build_filename(directory, GB_MODULI_STATES_FILE, NULL);
     if (g_file_test(path, G_FILE_TEST_EXISTS) &&
-        gb_moduli_states_read(states, path, NULL)) {
+        gb_moduli_table_read(states, path, NULL)) {
         if (job->states != NULL) {
             g_array_free(job->states, TRUE);
         }

@@ -7,9 +7,9 @@
 
 #include "greenbody/params.h"
 #include "greenbody/status.h"
-#include "run/moduli/moduli_states.h"
+#include "run/moduli_table.h"
 #include "runner/runner.h"
-#include "study/chart/chart.h"
+#include "study/chart.h"
 #include "tui/session/runset_view.h"
 
 enum { GB_CHILD_COMMAND_LINE = 256 };

@@ -20,7 +20,7 @@
 #include "many/compaction_data.h"
 #include "measure/compaction_fits.h"
 #include "scene/tolerances.h"
-#include "study/calibrate/calibration.h"
+#include "study/calibration.h"
 #include "tui/session/session.h"
 #include "tui/term/pixels.h"
 
@@ -251,7 +251,7 @@ static bool results_replicas_fill(struct gb_result_card *card,
 
 static double value_of(const struct gb_moduli_state *state, const char *column)
 {
-    return gb_moduli_states_mean(state, gb_moduli_table_find(column));
+    return gb_moduli_table_mean(state, gb_moduli_table_find(column));
 }
 
 /* Where a linear law is wrong. */

@@ -8,7 +8,6 @@
 
 #include "run/change.h"
 #include "run/cost.h"
-#include "run/quick.h"
 #include "runner/runner.h"
 #include "scene/field/changes.h"
 #include "scene/loading_kind.h"
@@ -46,7 +45,7 @@ static enum quick_cell_start quick_cell_start(struct gb_quick_cell *quick_cell,
 {
     struct gb_params quick;
     struct gb_runner *runner = NULL;
-    if (!gb_quick_params(full_params, &quick)) {
+    if (!gb_cost_params(full_params, &quick)) {
         return QUICK_CELL_NONE;
     }
     if (!gb_runner_create(&runner, &quick, err)) {

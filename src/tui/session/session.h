@@ -13,7 +13,7 @@
 #include "tui/session/results.h"
 
 /* The quick cell of the edited parameters: a second engine that computes a whole loading
- * curve in about two seconds (run/quick.h), before or beside the full run. */
+ * curve in about two seconds (run/cost.h), before or beside the full run. */
 struct gb_quick_cell {
     struct gb_params full_params; /* the full scene that it stands for */
     struct gb_runner *runner;     /* NULL: no quick cell */

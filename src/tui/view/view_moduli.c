@@ -34,7 +34,7 @@ static const struct quantity constants[CURVES] = {
 
 static double value_at(const struct drawing *drawing, size_t state, const char *column)
 {
-    return gb_moduli_states_mean(
+    return gb_moduli_table_mean(
         &g_array_index(drawing->states, struct gb_moduli_state, state),
         gb_moduli_table_find(column));
 }
