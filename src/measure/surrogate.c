@@ -130,8 +130,9 @@ void gb_surrogate_finish(struct gb_surrogate *surrogate)
     *surrogate = (struct gb_surrogate){0};
 }
 
-void gb_surrogate_value(const struct gb_surrogate *surrogate, const double *at,
-                        double *value)
+/* value[outputs] at a point. */
+static void value_at(const struct gb_surrogate *surrogate, const double *at,
+                     double *value)
 {
     double term[GB_SURROGATE_TERMS];
     fill_terms(at, surrogate->variables, surrogate->terms, term);
@@ -144,8 +145,9 @@ void gb_surrogate_value(const struct gb_surrogate *surrogate, const double *at,
     }
 }
 
-void gb_surrogate_slope(const struct gb_surrogate *surrogate, const double *at,
-                        double *slope)
+/* slope[outputs x variables] at a point. */
+static void slope_at(const struct gb_surrogate *surrogate, const double *at,
+                     double *slope)
 {
     const size_t n = surrogate->variables;
     for (size_t o = 0; o < surrogate->outputs; o++) {
@@ -193,7 +195,7 @@ static void look(const struct fit *fit, const double *at)
     memset(fit->mean, 0, problem->data * sizeof *fit->mean);
     for (size_t s = 0; s < problem->seeds; s++) {
         double *seen = fit->seen + s * problem->data;
-        gb_surrogate_value(&problem->seed[s], at, seen);
+        value_at(&problem->seed[s], at, seen);
         for (size_t i = 0; i < problem->data; i++) {
             fit->mean[i] += seen[i] / (double)problem->seeds;
         }
@@ -372,7 +374,7 @@ static bool set_slope(const struct fit *fit, const double *at, struct gb_error *
     }
     memset(fit->slope, 0, cells * sizeof *one);
     for (size_t s = 0; s < problem->seeds; s++) {
-        gb_surrogate_slope(&problem->seed[s], at, one);
+        slope_at(&problem->seed[s], at, one);
         for (size_t c = 0; c < cells; c++) {
             fit->slope[c] += one[c] / (double)problem->seeds;
         }
@@ -801,7 +803,7 @@ static double residual(const struct work *work, size_t point, size_t fit)
     struct gb_surrogate surrogate = {work->variables, 1, work->terms,
                                      work->coefficient + fit * work->terms};
     double fitted = 0.0;
-    gb_surrogate_value(&surrogate, work->at + point * work->variables, &fitted);
+    value_at(&surrogate, work->at + point * work->variables, &fitted);
     return work->value[point * work->seeds + work->seed[fit]] - fitted;
 }
 

@@ -31,13 +31,6 @@ bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t o
                       const double *value, size_t points, struct gb_error *err);
 void gb_surrogate_finish(struct gb_surrogate *surrogate); /* zeroed is fine */
 
-/* value[outputs] at a point. */
-void gb_surrogate_value(const struct gb_surrogate *surrogate, const double *at,
-                        double *value);
-/* slope[outputs x variables] at a point. */
-void gb_surrogate_slope(const struct gb_surrogate *surrogate, const double *at,
-                        double *slope);
-
 /* The best fit of a noisy model to data, with errors.  The model is known as surrogates,
  * one for each seed; their mean is fitted, and what they differ by at the best fit is the
  * model's own noise. */

@@ -81,7 +81,9 @@ static const char *const names[] = {"density",
 _Static_assert(sizeof names / sizeof names[0] == GB_MODULI_TABLE_COLUMNS,
                "a name for every column");
 
-const char *gb_moduli_table_name(int column)
+/* Name of a column, with its unit; the first twelve are density, p_MPa, probe_strain and
+ * nine elements of C. */
+static const char *column_name(int column)
 {
     return names[column];
 }
@@ -294,11 +296,11 @@ struct gb_listing *gb_moduli_table_listing(const GArray *states, const char *com
     struct gb_listing *listing = gb_listing_new();
     gb_listing_comment(listing, comment);
     for (int k = 0; k < COLUMNS; k++) {
-        gb_listing_columns(listing, "%.10g", gb_moduli_table_name(k));
+        gb_listing_columns(listing, "%.10g", column_name(k));
     }
     gb_listing_columns(listing, "%.10g", errors ? "replicas,missing" : "replicas");
     for (int k = 0; k < COLUMNS && errors; k++) {
-        gb_listing_column(listing, "%.10g", "error_%s", gb_moduli_table_name(k));
+        gb_listing_column(listing, "%.10g", "error_%s", column_name(k));
     }
     for (guint s = 0; s < states->len; s++) {
         const struct gb_moduli_state *state = state_at(states, s);
@@ -321,7 +323,7 @@ static bool read_columns(const struct gb_table *table, const double *column[COLU
 {
     const double *replicas = gb_table_column(table, "replicas", err);
     for (int k = 0; k < COLUMNS && replicas != NULL; k++) {
-        column[k] = gb_table_column(table, gb_moduli_table_name(k), err);
+        column[k] = gb_table_column(table, column_name(k), err);
         if (column[k] == NULL) {
             return false;
         }

@@ -14,9 +14,6 @@
  * or the files of a run directory. */
 enum { GB_MODULI_TABLE_COLUMNS = 63 };
 
-/* Name of a column, with its unit; the first twelve are density, p_MPa, probe_strain and
- * nine elements of C. */
-const char *gb_moduli_table_name(int column);
 int gb_moduli_table_find(const char *name); /* -1: none */
 
 struct gb_moduli_table_row {

@@ -18,14 +18,15 @@ void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *
     (void)gb_keep_points_parse(params->snapshots_at, &states->marks, NULL);
 }
 
-bool gb_kept_states_loads(const struct gb_point *point)
+/* Whether a recorded point is one of loading, where states are kept: in any leg of a path. */
+static bool loads(const struct gb_point *point)
 {
     return point->branch == GB_BRANCH_LOAD || point->branch < GB_BRANCH_LEG;
 }
 
 void gb_kept_states_pass(struct gb_kept_states *states, const struct gb_point *point)
 {
-    if (gb_kept_states_loads(point)) {
+    if (loads(point)) {
         states->p_pa = fmax(states->p_pa, point->p_pa);
         states->density = fmax(states->density, point->density);
     } else if (point->branch > GB_BRANCH_LOAD) {
@@ -38,8 +39,7 @@ static bool reaches(const struct gb_kept_states *states, const struct gb_keep_po
 {
     const double before = mark->by_density ? states->density : states->p_pa;
     const double now = mark->by_density ? point->density : point->p_pa;
-    return gb_kept_states_loads(point) &&
-           gb_keep_points_reached(mark, states->params, before, now);
+    return loads(point) && gb_keep_points_reached(mark, states->params, before, now);
 }
 
 char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size)
@@ -123,7 +123,7 @@ struct progress {
 static unsigned find_due(struct progress *progress, const struct gb_point *point)
 {
     unsigned due = 0;
-    if (!gb_kept_states_loads(point)) {
+    if (!loads(point)) {
         return 0;
     }
     for (int k = 0; k < progress->points->count; k++) {

@@ -22,9 +22,6 @@ struct gb_kept_states {
 /* Name of the state that is kept for a mark, without its ending. */
 char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size);
 
-/* Whether a recorded point is one of loading, where states are kept: in any leg of a path. */
-bool gb_kept_states_loads(const struct gb_point *point);
-
 /* The marks of checked params, which must outlive it. */
 void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params);
 

@@ -154,8 +154,24 @@ static bool tangent_renew(struct gb_tangent *tangent, const struct gb_world *wor
     return true;
 }
 
-bool gb_probe_tangent_create(struct gb_tangent **out, const struct gb_world *world,
-                             struct gb_error *err)
+/* NULL is fine */
+static void tangent_destroy(struct gb_tangent *tangent)
+{
+    if (!tangent) {
+        return;
+    }
+    for (int v = 0; v < 5; v++) {
+        gb_alloc_free(tangent->scratch[v]);
+    }
+    gb_alloc_free(tangent->inverse);
+    gb_alloc_free(tangent->pair);
+    gb_alloc_free(tangent);
+}
+
+/* Of a world in double precision right after an evaluation; the world does not change.
+ * motion: as of gb_pair_tangent_list; NULL is fine. */
+static bool tangent_create(struct gb_tangent **out, const struct gb_world *world,
+                           struct gb_error *err)
 {
     struct gb_tangent *tangent = gb_alloc_array(1, sizeof *tangent, err);
     if (!tangent) {
@@ -170,24 +186,11 @@ bool gb_probe_tangent_create(struct gb_tangent **out, const struct gb_world *wor
         whole = tangent->scratch[v] != NULL;
     }
     if (!whole || !tangent_renew(tangent, world, NULL, err)) {
-        gb_probe_tangent_destroy(tangent);
+        tangent_destroy(tangent);
         return false;
     }
     *out = tangent;
     return true;
-}
-
-void gb_probe_tangent_destroy(struct gb_tangent *tangent)
-{
-    if (!tangent) {
-        return;
-    }
-    for (int v = 0; v < 5; v++) {
-        gb_alloc_free(tangent->scratch[v]);
-    }
-    gb_alloc_free(tangent->inverse);
-    gb_alloc_free(tangent->pair);
-    gb_alloc_free(tangent);
 }
 
 /* Minus the change of the nine conjugates. */
@@ -467,7 +470,7 @@ static bool renew_local(struct gb_probe *probe, const double strain[3][3],
     return gb_world_copy_restore(probe->world, probe->base, err) &&
            gb_world_evaluate(probe->world, err) &&
            (probe->local ? tangent_renew(probe->local, probe->world, &motion, err)
-                         : gb_probe_tangent_create(&probe->local, probe->world, err) &&
+                         : tangent_create(&probe->local, probe->world, err) &&
                                tangent_renew(probe->local, probe->world, &motion, err));
 }
 
@@ -564,11 +567,11 @@ bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double f
 
 static bool renew_tangent(struct gb_probe *probe, struct gb_error *err)
 {
-    gb_probe_tangent_destroy(probe->tangent);
+    tangent_destroy(probe->tangent);
     probe->tangent = NULL;
     probe->residual = gb_world_residual(probe->world);
     gb_world_pressure(probe->world, probe->pressure);
-    return gb_probe_tangent_create(&probe->tangent, probe->world, err);
+    return tangent_create(&probe->tangent, probe->world, err);
 }
 
 bool gb_probe_advance(struct gb_probe *probe, struct gb_error *err)
@@ -729,8 +732,8 @@ void gb_probe_destroy(struct gb_probe *probe)
     if (!probe) {
         return;
     }
-    gb_probe_tangent_destroy(probe->tangent);
-    gb_probe_tangent_destroy(probe->local);
+    tangent_destroy(probe->tangent);
+    tangent_destroy(probe->local);
     gb_relax_destroy(probe->relax);
     gb_world_copy_destroy(probe->base);
     gb_world_destroy(probe->world);

@@ -21,13 +21,6 @@ struct gb_tangent {
     double *scratch[5];           /* of gb_probe_solve */
 };
 
-/* Of a world in double precision right after an evaluation; the world does not change.
- * motion: as of gb_pair_tangent_list; NULL is fine. */
-bool gb_probe_tangent_create(struct gb_tangent **out, const struct gb_world *world,
-                             struct gb_error *err);
-
-void gb_probe_tangent_destroy(struct gb_tangent *tangent); /* NULL is fine */
-
 /* Forces and torques after an affine strain with the particles held.  Returns what their
  * norm would be if the forces of pairs did not cancel: in a lattice they do. */
 double gb_probe_affine(const struct gb_tangent *tangent, const double strain[3][3],
