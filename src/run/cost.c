@@ -1,3 +1,8 @@
+/* How long runs take.
+ *
+ * The pace of a run under way gives its rate, its remaining time and the next slice of work.
+ * Before a run, its cost is estimated from the steps of a dynamic compression, from a copy that
+ * runs for a moment, or from the quick cell: a small and coarse twin of the scene. */
 #include "run/cost.h"
 
 #include <glib.h>
@@ -30,7 +35,7 @@ static const double window_s = 3.0;
 static const double left_known_s = 0.5;
 static const double left_known_progress = 1e-3;
 
-void gb_cost_init(struct gb_pace *pace)
+void gb_cost_pace_init(struct gb_pace *pace)
 {
     memset(pace, 0, sizeof *pace);
     pace->slice = 1;
@@ -60,8 +65,8 @@ static void add_progress(struct gb_pace *pace, double seconds, double progress)
     pace->progress_at = seconds;
 }
 
-void gb_cost_add(struct gb_pace *pace, double seconds, int64_t evaluations,
-                 double progress)
+void gb_cost_pace_add(struct gb_pace *pace, double seconds, int64_t evaluations,
+                      double progress)
 {
     pace->seconds[pace->next] = seconds;
     pace->evaluations[pace->next] = (double)evaluations;
@@ -78,7 +83,7 @@ static int slot_of(const struct gb_pace *pace, int age)
     return (pace->next - 1 - age + 2 * GB_PACE_WINDOW) % GB_PACE_WINDOW;
 }
 
-double gb_cost_rate(const struct gb_pace *pace)
+double gb_cost_pace_rate(const struct gb_pace *pace)
 {
     if (pace->filled < 2) {
         return 0.0;
@@ -96,7 +101,7 @@ double gb_cost_rate(const struct gb_pace *pace)
     return dt > 0.0 ? (pace->evaluations[newest] - pace->evaluations[oldest]) / dt : 0.0;
 }
 
-double gb_cost_left(const struct gb_pace *pace)
+double gb_cost_pace_left(const struct gb_pace *pace)
 {
     if (pace->progress >= 1.0) {
         return 0.0;
@@ -108,12 +113,12 @@ double gb_cost_left(const struct gb_pace *pace)
     return (1.0 - pace->progress) / pace->progress_rate;
 }
 
-int64_t gb_cost_slice(const struct gb_pace *pace)
+int64_t gb_cost_pace_slice(const struct gb_pace *pace)
 {
     return pace->slice;
 }
 
-void gb_cost_sliced(struct gb_pace *pace, double seconds, bool full)
+void gb_cost_pace_sliced(struct gb_pace *pace, double seconds, bool full)
 {
     if (seconds > slice_long_s && pace->slice > 1) {
         pace->slice /= 2;
@@ -287,13 +292,13 @@ static double time_copy(struct gb_experiment *copy, double seconds, bool *ended)
     const int64_t before = gb_experiment_evaluations(copy);
     const double start = gb_clock_s();
     double now = start;
-    gb_cost_init(&pace);
+    gb_cost_pace_init(&pace);
     while (!gb_experiment_over(copy) && now - start < seconds) {
         const double from = now;
         const enum gb_step_outcome how =
-            gb_experiment_advance(copy, gb_cost_slice(&pace), &ignored);
+            gb_experiment_advance(copy, gb_cost_pace_slice(&pace), &ignored);
         now = gb_clock_s();
-        gb_cost_sliced(&pace, now - from, how == GB_STEP_MORE);
+        gb_cost_pace_sliced(&pace, now - from, how == GB_STEP_MORE);
     }
     *ended = gb_experiment_over(copy);
     const double steps = (double)(gb_experiment_evaluations(copy) - before);
@@ -385,7 +390,7 @@ static bool shrink_dynamic(struct gb_params *quick)
     return true;
 }
 
-bool gb_cost_params(const struct gb_params *full, struct gb_params *quick)
+bool gb_cost_quick(const struct gb_params *full, struct gb_params *quick)
 {
     *quick = *full;
     const struct gb_lattice *lattice = gb_lattice_of(full->structure);
@@ -412,10 +417,10 @@ bool gb_cost_params(const struct gb_params *full, struct gb_params *quick)
 }
 
 /* The reference takes the work of a small cell 36 times (run/cost.c). */
-bool gb_cost_enough(const struct gb_params *full)
+bool gb_cost_is_quick(const struct gb_params *full)
 {
     struct gb_params quick;
     const bool slow = full->fidelity == GB_FIDELITY_REFERENCE &&
                       !gb_loading_kind_of(full)->follows_time;
-    return gb_cost_params(full, &quick) && full->count <= quick.count && !slow;
+    return gb_cost_quick(full, &quick) && full->count <= quick.count && !slow;
 }

@@ -24,23 +24,23 @@ struct gb_pace {
     int64_t slice;
 };
 
-void gb_cost_init(struct gb_pace *pace);
+void gb_cost_pace_init(struct gb_pace *pace);
 
 /* Takes in one report; progress: NaN while it says nothing of the time left. */
-void gb_cost_add(struct gb_pace *pace, double seconds, int64_t evaluations,
-                 double progress);
+void gb_cost_pace_add(struct gb_pace *pace, double seconds, int64_t evaluations,
+                      double progress);
 
 /* Force evaluations per second over the window; 0 while unknown. */
-double gb_cost_rate(const struct gb_pace *pace);
+double gb_cost_pace_rate(const struct gb_pace *pace);
 
 /* Seconds to the end of loading; negative while unknown. */
-double gb_cost_left(const struct gb_pace *pace);
+double gb_cost_pace_left(const struct gb_pace *pace);
 
 /* Evaluations to allow in the next slice, so that it takes 5 to 20 ms. */
-int64_t gb_cost_slice(const struct gb_pace *pace);
+int64_t gb_cost_pace_slice(const struct gb_pace *pace);
 
 /* Time of the last slice, s; full: it used all evaluations that it was allowed. */
-void gb_cost_sliced(struct gb_pace *pace, double seconds, bool full);
+void gb_cost_pace_sliced(struct gb_pace *pace, double seconds, bool full);
 
 struct gb_experiment;
 
@@ -74,8 +74,8 @@ double gb_cost_rate_assumed(const struct gb_params *params);
 bool gb_cost_rate_try(struct gb_experiment *experiment, double seconds,
                       double *particle_steps_per_s, bool *ended, struct gb_error *err);
 
-/* Seconds that a quasi-static run will take about, by those that its quick cell
- * (run/cost.h) took on this machine: good to a factor of two.  NaN for other kinds. */
+/* Seconds that a quasi-static run will take about, from the seconds that its quick
+ * cell took on this machine: good to a factor of two.  NaN for other kinds. */
 double gb_cost_from_quick(const struct gb_params *full, const struct gb_params *quick,
                           double quick_s);
 
@@ -103,11 +103,11 @@ bool gb_cost_within_limit(double seconds);
 enum { GB_QUICK_COUNT = 1000 };
 
 /* Fills quick with the quick twin of checked parameters: no unloading, no stages before
- * and behind a dynamic compression, fidelity fast.  False when there is none that would
+ * and after a dynamic compression, fidelity fast.  False when there is none that would
  * answer in time: a slow dynamic run, or a kind that has no small cell. */
-bool gb_cost_params(const struct gb_params *full, struct gb_params *quick);
+bool gb_cost_quick(const struct gb_params *full, struct gb_params *quick);
 
 /* Whether the scene is itself about as quick as its quick twin. */
-bool gb_cost_enough(const struct gb_params *full);
+bool gb_cost_is_quick(const struct gb_params *full);
 
 #endif

@@ -1,3 +1,11 @@
+/* One simulation: a loading of a packing (solve/loading), measured after every step.
+ *
+ * An experiment advances in slices of force evaluations, so that its thread can answer
+ * between them.  After each step the packing is measured and recorded as a point: a row of
+ * curve.csv in SI.  A checkpoint copies everything that a resumed run needs.
+ *
+ * Below: the measures of a point, copies of the packing for pictures and files, then the life
+ * of an experiment. */
 #include "run/experiment.h"
 
 #include <inttypes.h>
@@ -25,8 +33,7 @@
 #include "solve/loading/loading.h"
 #include "solve/loading/loading_cell.h"
 
-/* Measures of a packing as a row of curve.csv, in SI.  The members step and seconds are
- * the caller's. */
+/* ---- Measures of a point; its members step and seconds are the caller's. ---- */
 
 static int branch_of(const struct gb_loading_report *report)
 {
@@ -175,8 +182,7 @@ static void measure_die(const struct gb_loading *loading, struct gb_point *point
 
 /* What the packing is: density, pressures, contacts.  In a periodic cell iterations,
  * evaluations, time and energies are left empty. */
-static void packing_state_packing(const struct gb_loading *loading,
-                                  struct gb_point *point)
+static void measure_packing(const struct gb_loading *loading, struct gb_point *point)
 {
     if (loading->bed) {
         measure_die(loading, point);
@@ -204,12 +210,12 @@ static void measure_energies(const struct gb_loading *loading,
 
 /* A recorded point: also what it took to get there, time and energies.  elastic_start:
  * elastic energy at the start of the run, E d^3. */
-static void packing_state_step(const struct gb_loading *loading, double elastic_start,
-                               struct gb_point *point)
+static void measure_step(const struct gb_loading *loading, double elastic_start,
+                         struct gb_point *point)
 {
     const struct gb_loading_kind *kind = gb_loading_kind_of(loading->params);
     const struct gb_loading_report report = loading->mode->report(loading);
-    packing_state_packing(loading, point);
+    measure_packing(loading, point);
     point->branch = branch_of(&report);
     point->iterations = report.iterations;
     point->evaluations = report.evaluations;
@@ -245,8 +251,7 @@ static void measure_stage(const struct gb_loading *loading, double coordination,
 }
 
 /* Contacts, forces and solver as they are now, for the screen. */
-static void packing_state_live(const struct gb_loading *loading,
-                               struct gb_snapshot *snapshot)
+static void measure_live(const struct gb_loading *loading, struct gb_snapshot *snapshot)
 {
     const struct gb_loading_report report = loading->mode->report(loading);
     struct gb_contact_counts counts;
@@ -394,15 +399,15 @@ static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
  *
  * A die stands in a box from 0: positions are moved there, and the box reaches up to the
  * punch or the highest particle. */
-static bool packing_state_copy(const struct gb_loading *loading, struct gb_state **out,
-                               struct gb_error *err)
+static bool copy_state(const struct gb_loading *loading, struct gb_state **out,
+                       struct gb_error *err)
 {
     const struct gb_model *model = loading->model;
     if (!(loading->bed ? copy_bed(loading, out, err) : copy_world(loading, out, err))) {
         return false;
     }
     struct gb_state *state = *out;
-    packing_state_packing(loading, &state->point);
+    measure_packing(loading, &state->point);
     gb_state_record_model(state, model);
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
@@ -521,7 +526,7 @@ static enum gb_step_outcome stop(struct gb_experiment *experiment)
 /* The packing is back where an unloading branch began, on the loading branch. */
 static void measure_restored(struct gb_experiment *experiment)
 {
-    packing_state_packing(experiment->loading, &experiment->shown);
+    measure_packing(experiment->loading, &experiment->shown);
     experiment->shown.branch = GB_BRANCH_LOAD;
     experiment->shown.branch_from_pa = 0.0;
     experiment->shown.step = experiment->step;
@@ -531,7 +536,7 @@ static void measure_restored(struct gb_experiment *experiment)
 static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_error *err)
 {
     struct gb_loading *loading = experiment->loading;
-    packing_state_step(loading, experiment->elastic_start, &experiment->point);
+    measure_step(loading, experiment->elastic_start, &experiment->point);
     experiment->point.step = experiment->step++;
     experiment->unrelaxed += experiment->point.unrelaxed > 0.0;
     experiment->shown = experiment->point;
@@ -626,14 +631,14 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
 {
     snapshot->now = experiment->point;
     snapshot->now_valid = experiment->step > 0;
-    packing_state_live(experiment->loading, snapshot);
+    measure_live(experiment->loading, snapshot);
     snapshot->progress = gb_experiment_progress(experiment);
 }
 
 bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state **out,
                          struct gb_error *err)
 {
-    if (!packing_state_copy(experiment->loading, out, err)) {
+    if (!copy_state(experiment->loading, out, err)) {
         return false;
     }
     (*out)->point.step = experiment->step;

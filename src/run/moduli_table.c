@@ -1,3 +1,7 @@
+/* The table of elastic moduli: a row for each probed state.
+ *
+ * Column names come first, then how a row is filled, the states of a run or of the files of
+ * a run directory, and means over replicas. */
 #include "run/moduli_table.h"
 
 #include <glib.h>

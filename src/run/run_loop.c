@@ -14,7 +14,7 @@ void gb_run_loop_init(struct gb_run_loop *loop, const struct gb_run_loop_hooks *
     memset(loop, 0, sizeof *loop);
     loop->hooks = *hooks;
     loop->started_s = gb_clock_s();
-    gb_cost_init(&loop->pace);
+    gb_cost_pace_init(&loop->pace);
 }
 
 void gb_run_loop_finish(struct gb_run_loop *loop)
@@ -72,7 +72,7 @@ static double seconds_left(const struct gb_run_loop *loop, enum gb_run_state sta
     switch (state) {
     case GB_RUN_RUNNING:
     case GB_RUN_PAUSED:
-        return gb_cost_left(&loop->pace);
+        return gb_cost_pace_left(&loop->pace);
     case GB_RUN_DONE:
         return 0.0;
     default:
@@ -83,10 +83,11 @@ static double seconds_left(const struct gb_run_loop *loop, enum gb_run_state sta
 static void observe_rate(struct gb_run_loop *loop)
 {
     struct gb_snapshot *snapshot = &loop->snapshot;
-    gb_cost_add(&loop->pace, snapshot->seconds - loop->packed_s, snapshot->evaluations,
-                snapshot->stage.stage != GB_STAGE_NONE ? snapshot->stage.timed
-                                                       : snapshot->progress);
-    snapshot->evaluations_per_s = gb_cost_rate(&loop->pace);
+    gb_cost_pace_add(&loop->pace, snapshot->seconds - loop->packed_s,
+                     snapshot->evaluations,
+                     snapshot->stage.stage != GB_STAGE_NONE ? snapshot->stage.timed
+                                                            : snapshot->progress);
+    snapshot->evaluations_per_s = gb_cost_pace_rate(&loop->pace);
     snapshot->particle_evaluations_per_s =
         snapshot->evaluations_per_s *
         (double)gb_experiment_params(loop->experiment)->count;
@@ -207,9 +208,9 @@ static enum gb_step_outcome slice(struct gb_run_loop *loop)
         return loop->last;
     }
     const double from = gb_clock_s();
-    loop->last =
-        gb_experiment_advance(loop->experiment, gb_cost_slice(&loop->pace), &loop->error);
-    gb_cost_sliced(&loop->pace, gb_clock_s() - from, loop->last == GB_STEP_MORE);
+    loop->last = gb_experiment_advance(loop->experiment, gb_cost_pace_slice(&loop->pace),
+                                       &loop->error);
+    gb_cost_pace_sliced(&loop->pace, gb_clock_s() - from, loop->last == GB_STEP_MORE);
     if (loop->last != GB_STEP_STOPPED) {
         loop->error = (struct gb_error){0}; /* one from which a guard went on */
     }

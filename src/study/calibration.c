@@ -170,10 +170,9 @@ static size_t add_points(struct samples *samples, enum gb_calibrate_stage stage,
 
 /* Simulates the design of a region, as far as it is new, and counts runs and failures in
  * result.  samples_finish is due. */
-static bool calibrate_samples_add(struct samples *samples, const struct region *region,
-                                  enum gb_calibrate_stage stage,
-                                  struct gb_calibrate_result *result,
-                                  struct gb_error *err)
+static bool samples_add(struct samples *samples, const struct region *region,
+                        enum gb_calibrate_stage stage, struct gb_calibrate_result *result,
+                        struct gb_error *err)
 {
     const struct gb_calibrate_problem *problem = samples->problem;
     double design[DESIGN_MAX * FREE];
@@ -210,10 +209,9 @@ static bool is_near(const struct samples *samples, const struct region *region,
 
 /* Points of a stage near the region where a seed did not fail: at (in half widths from the
  * centre) and values; both have room for all samples.  Returns their number. */
-static size_t calibrate_samples_near(const struct samples *samples,
-                                     const struct region *region,
-                                     enum gb_calibrate_stage stage, size_t seed,
-                                     double *at, double *value)
+static size_t samples_near(const struct samples *samples, const struct region *region,
+                           enum gb_calibrate_stage stage, size_t seed, double *at,
+                           double *value)
 {
     const struct gb_calibrate_problem *problem = samples->problem;
     const size_t n = problem->free;
@@ -280,7 +278,7 @@ static enum seed_outcome fit_seed(const struct fit *fit, size_t seed, double *at
                                                     GB_SURROGATE_LINEAR};
     const struct gb_calibrate_problem *problem = fit->problem;
     const size_t points =
-        calibrate_samples_near(&fit->samples, &fit->region, fit->stage, seed, at, value);
+        samples_near(&fit->samples, &fit->region, fit->stage, seed, at, value);
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
         struct gb_error why = {0};
         if (gb_surrogate_fit(surrogate, problem->free, problem->data, order[i], at, value,
@@ -385,9 +383,9 @@ static bool do_round(struct fit *fit, struct gb_calibrate_result *result,
         return false;
     }
     size_t count = 0;
-    const bool good =
-        calibrate_samples_add(&fit->samples, &fit->region, fit->stage, result, err) &&
-        fit_seeds(fit, seeds, &count, err) && fit_data(fit, seeds, count, result, err);
+    const bool good = samples_add(&fit->samples, &fit->region, fit->stage, result, err) &&
+                      fit_seeds(fit, seeds, &count, err) &&
+                      fit_data(fit, seeds, count, result, err);
     for (size_t s = 0; s < count; s++) {
         gb_surrogate_finish(&seeds[s]);
     }
@@ -475,9 +473,8 @@ static bool do_stages(struct fit *fit, struct gb_calibrate_result *result,
     return do_stage(fit, result, err);
 }
 
-bool gb_calibration_calibrate_fit(const struct gb_calibrate_problem *problem,
-                                  struct gb_calibrate_result *result,
-                                  struct gb_error *err)
+bool gb_calibration_search(const struct gb_calibrate_problem *problem,
+                           struct gb_calibrate_result *result, struct gb_error *err)
 {
     struct fit fit = {.problem = problem, .samples = {.problem = problem}};
     *result = (struct gb_calibrate_result){0};
@@ -497,12 +494,12 @@ bool gb_calibration_calibrate_fit(const struct gb_calibrate_problem *problem,
     const bool good = result->fitted_error != NULL && do_stages(&fit, result, err);
     samples_finish(&fit.samples);
     if (!good) {
-        gb_calibration_calibrate_finish(result);
+        gb_calibration_result_finish(result);
     }
     return good;
 }
 
-void gb_calibration_calibrate_finish(struct gb_calibrate_result *result)
+void gb_calibration_result_finish(struct gb_calibrate_result *result)
 {
     gb_alloc_free(result->fitted);
     gb_alloc_free(result->fitted_error);
@@ -854,7 +851,7 @@ bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err
 {
     const struct gb_calibrate_problem problem = problem_of(calibration);
     calibration->rounds = new_rounds(calibration);
-    if (gb_calibration_calibrate_fit(&problem, &calibration->result, err)) {
+    if (gb_calibration_search(&problem, &calibration->result, err)) {
         return true;
     }
     /* where runs are missing because of a full disk, that is the error */
@@ -866,7 +863,7 @@ bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err
 
 void gb_calibration_finish(struct gb_calibration *calibration)
 {
-    gb_calibration_calibrate_finish(&calibration->result);
+    gb_calibration_result_finish(&calibration->result);
     gb_compaction_data_targets_finish(&calibration->lab);
     gb_listing_free(calibration->rounds);
     calibration->rounds = NULL;

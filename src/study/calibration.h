@@ -60,12 +60,11 @@ struct gb_calibrate_result {
 };
 
 /* Errors: GB_ERR_INPUT (too few data), those of simulate, and GB_ERR_GUARD
- * when too many runs failed.  gb_calibration_calibrate_finish is due on success. */
-bool gb_calibration_calibrate_fit(const struct gb_calibrate_problem *problem,
-                                  struct gb_calibrate_result *result,
-                                  struct gb_error *err);
+ * when too many runs failed.  gb_calibration_result_finish is due on success. */
+bool gb_calibration_search(const struct gb_calibrate_problem *problem,
+                           struct gb_calibrate_result *result, struct gb_error *err);
 
-void gb_calibration_calibrate_finish(
+void gb_calibration_result_finish(
     struct gb_calibrate_result *result); /* zeroed is fine */
 
 /* Parameters i < j that the data cannot separate: their errors are so correlated that
@@ -119,7 +118,7 @@ struct gb_calibration {
     struct gb_error machine;   /* the first run that the machine failed; GB_OK: none */
 };
 
-/* Fits keys to lab.  Errors: those of gb_calibration_calibrate_fit, of work and of the machine.
+/* Fits keys to lab.  Errors: those of gb_calibration_search, of work and of the machine.
  * gb_calibration_finish is due in any case. */
 bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err);
 

@@ -55,13 +55,13 @@ static bool time_one(struct timing *timing, int k, struct gb_experiment *experim
                      struct gb_error *err)
 {
     double start = gb_clock_s();
-    if (!gb_checkpoint_take(experiment, gb_run_recorder_record(writer), err)) {
+    if (!gb_checkpoint_take(experiment, gb_run_recorder_writer_record(writer), err)) {
         return false;
     }
     timing->held[k] = gb_clock_s() - start;
     start = gb_clock_process_s();
-    if (gb_run_recorder_send(writer, err) != GB_WRITER_SENT ||
-        !gb_run_recorder_wait(writer, err)) {
+    if (gb_run_recorder_writer_send(writer, err) != GB_WRITER_SENT ||
+        !gb_run_recorder_writer_wait(writer, err)) {
         return false;
     }
     timing->processor[k] = gb_clock_process_s() - start;

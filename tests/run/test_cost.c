@@ -150,7 +150,7 @@ static void test_from_quick(void)
     full.count = 8000;
     full.fidelity = GB_FIDELITY_FAST;
     full.unload_count = 0;
-    g_assert_true(gb_cost_params(&full, &quick));
+    g_assert_true(gb_cost_quick(&full, &quick));
     g_assert_cmpfloat(gb_cost_from_quick(&full, &quick, 2.0), ==, 16.0);
     full.fidelity = GB_FIDELITY_BALANCED;
     const double balanced = gb_cost_from_quick(&full, &quick, 2.0);

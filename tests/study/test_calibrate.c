@@ -113,7 +113,7 @@ static struct gb_calibrate_result fit(const struct gb_calibrate_problem *problem
 {
     struct gb_calibrate_result result;
     struct gb_error err = {0};
-    if (!gb_calibration_calibrate_fit(problem, &result, &err)) {
+    if (!gb_calibration_search(problem, &result, &err)) {
         g_error("%s", err.text);
     }
     return result;
@@ -146,7 +146,7 @@ static void recover(bool errors_known)
         g_assert_cmpfloat(result.high[1] - result.low[1], <, 0.4);
         g_assert_false(gb_calibration_confounded(&result, 0, 1));
         g_assert_cmpuint(result.failed, ==, 0);
-        gb_calibration_calibrate_finish(&result);
+        gb_calibration_result_finish(&result);
     }
     g_test_message("%d and %d of %d", hits[0], hits[1], count);
     g_assert_cmpint(10 * hits[0], >=, 9 * count);
@@ -196,7 +196,7 @@ static void test_exact(void)
     g_assert_cmpfloat_with_epsilon(result.value[1], true_alpha, 2e-3);
     g_assert_cmpfloat(result.error[0], <, 1e-3);
     g_assert_cmpfloat(result.rms, <, 1e-5);
-    gb_calibration_calibrate_finish(&result);
+    gb_calibration_result_finish(&result);
 }
 
 /* Runs that fail are left out; the fit is still right. */
@@ -209,10 +209,10 @@ static void test_failures(void)
     g_assert_cmpuint(result.failed, >, result.simulated / 20);
     g_assert_cmpfloat(fabs(result.value[0] - true_mu), <, 4.0 * result.error[0]);
     g_assert_cmpfloat(fabs(result.value[1] - true_alpha), <, 4.0 * result.error[1]);
-    gb_calibration_calibrate_finish(&result);
+    gb_calibration_result_finish(&result);
     struct gb_error err = {0};
     bench.fail = 1e9;
-    g_assert_false(gb_calibration_calibrate_fit(&problem, &result, &err));
+    g_assert_false(gb_calibration_search(&problem, &result, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
 }
 
@@ -226,7 +226,7 @@ static void test_confused(void)
     g_assert_true(gb_calibration_confounded(&result, 0, 1));
     g_assert_cmpfloat(result.correlation[0][1], <, -0.97);
     g_assert_cmpfloat(result.high[0] - result.low[0], >, 0.2);
-    gb_calibration_calibrate_finish(&result);
+    gb_calibration_result_finish(&result);
 }
 
 /* Equal weights change nothing, errors included; of data that contradict each other those
@@ -260,9 +260,9 @@ static void test_weights(void)
     }
     g_assert_cmpfloat(off[1][0], <, 0.7 * off[0][0]);
     g_assert_cmpfloat(off[1][1], >, off[0][1]);
-    gb_calibration_calibrate_finish(&plain);
-    gb_calibration_calibrate_finish(&scaled);
-    gb_calibration_calibrate_finish(&weighted);
+    gb_calibration_result_finish(&plain);
+    gb_calibration_result_finish(&scaled);
+    gb_calibration_result_finish(&weighted);
 }
 
 /* The best value lies beyond what is allowed. */
@@ -275,7 +275,7 @@ static void test_limit(void)
     struct gb_calibrate_result result = fit(&problem);
     g_assert_true(result.at_limit[0]);
     g_assert_cmpfloat_with_epsilon(result.value[0], 0.2, 1e-3);
-    gb_calibration_calibrate_finish(&result);
+    gb_calibration_result_finish(&result);
 }
 
 /* Intervals stay within the range of a key, and say where they end at its limit.  Data
@@ -316,7 +316,7 @@ static void test_range(void)
             if (s == 2 && r == 2) { /* nothing is known of mu */
                 g_assert_true(result.low_open[0] && result.high_open[0]);
             }
-            gb_calibration_calibrate_finish(&result);
+            gb_calibration_result_finish(&result);
         }
     }
 }
@@ -329,14 +329,14 @@ static void test_refuse(void)
     struct gb_calibrate_result result;
     struct gb_error err = {0};
     problem.data = 1;
-    g_assert_false(gb_calibration_calibrate_fit(&problem, &result, &err));
+    g_assert_false(gb_calibration_search(&problem, &result, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     problem.data = 2;
     problem.error = NULL;
-    g_assert_false(gb_calibration_calibrate_fit(&problem, &result, &err));
+    g_assert_false(gb_calibration_search(&problem, &result, &err));
     problem.data = DATA;
     problem.replicas = 2;
-    g_assert_false(gb_calibration_calibrate_fit(&problem, &result, &err));
+    g_assert_false(gb_calibration_search(&problem, &result, &err));
     g_assert_cmpuint(bench.calls, ==, 0);
 }
 

@@ -108,7 +108,7 @@ static void test_quick_curve(void)
     struct gb_params quick;
     const struct gb_params full = powder();
     double least = HUGE_VAL;
-    g_assert_true(gb_cost_params(&full, &quick));
+    g_assert_true(gb_cost_quick(&full, &quick));
     g_assert_cmpint(quick.count, ==, 1000);
     for (int i = 0; i < (hard ? 3 : 1); i++) {
         least = fmin(least, press(&quick));

@@ -1,3 +1,10 @@
+/* Records a run in its directory.
+ *
+ * A thread writes states and the status, so that the engine never waits for the disk.  The
+ * engine fills one record and hands it over.  Between checkpoints the record of a recent
+ * point is held in memory; a run that stops is saved from it.
+ *
+ * Below: the writer, the held record, then the recorder. */
 #include "run/record/run_recorder.h"
 
 #include <glib.h>
@@ -151,7 +158,7 @@ void gb_run_recorder_writer_destroy(struct gb_writer *writer)
     gb_alloc_free(writer);
 }
 
-struct gb_record *gb_run_recorder_record(struct gb_writer *writer)
+struct gb_record *gb_run_recorder_writer_record(struct gb_writer *writer)
 {
     return &writer->record;
 }
@@ -164,8 +171,8 @@ static bool writer_busy(struct gb_writer *writer)
     return busy;
 }
 
-enum gb_writer_outcome gb_run_recorder_send(struct gb_writer *writer,
-                                            struct gb_error *err)
+enum gb_writer_outcome gb_run_recorder_writer_send(struct gb_writer *writer,
+                                                   struct gb_error *err)
 {
     enum gb_writer_outcome outcome = GB_WRITER_BUSY;
     pthread_mutex_lock(&writer->mutex);
@@ -201,7 +208,7 @@ static bool writer_status(struct gb_writer *writer, char *text, struct gb_error 
     return good;
 }
 
-bool gb_run_recorder_wait(struct gb_writer *writer, struct gb_error *err)
+bool gb_run_recorder_writer_wait(struct gb_writer *writer, struct gb_error *err)
 {
     pthread_mutex_lock(&writer->mutex);
     while (writer->busy || writer->writing_status || writer->status != NULL) {
@@ -265,12 +272,12 @@ static bool held_record_due(const struct held_record *held,
 static bool held_record_take(struct held_record *held, struct gb_experiment *experiment,
                              struct gb_error *err)
 {
-    if (!gb_run_recorder_wait(held->writer, err)) {
+    if (!gb_run_recorder_writer_wait(held->writer, err)) {
         return false;
     }
     const double from_s = gb_clock_s();
     const bool good =
-        gb_checkpoint_take(experiment, gb_run_recorder_record(held->writer), err);
+        gb_checkpoint_take(experiment, gb_run_recorder_writer_record(held->writer), err);
     held->taken_s = gb_clock_s();
     held->cost_s = held->taken_s - from_s;
     return good;
@@ -284,8 +291,8 @@ static void held_record_skip(struct held_record *held, const struct gb_point *po
 /* Adds the journal to the record of the last point, which is complete then. */
 static bool held_record_complete(struct held_record *held, struct gb_error *err)
 {
-    held->fresh =
-        gb_run_journal_record(&held->journal, gb_run_recorder_record(held->writer), err);
+    held->fresh = gb_run_journal_record(&held->journal,
+                                        gb_run_recorder_writer_record(held->writer), err);
     held->missing = -1;
     return held->fresh;
 }
@@ -296,7 +303,7 @@ static bool held_record_complete(struct held_record *held, struct gb_error *err)
  * Errors: GB_ERR_MEMORY. */
 static bool held_record_catch_up(struct held_record *held, struct gb_error *err)
 {
-    struct gb_record *record = gb_run_recorder_record(held->writer);
+    struct gb_record *record = gb_run_recorder_writer_record(held->writer);
     struct gb_error why = {0};
     if (held->missing < 0 || writer_busy(held->writer)) {
         return true;
@@ -583,7 +590,7 @@ static bool keep(struct gb_run_recorder *recorder, const struct gb_point *point,
                  struct gb_error *err)
 {
     const struct gb_rundir *dir = gb_store_rundir(recorder->store);
-    const struct gb_record *record = gb_run_recorder_record(recorder->writer);
+    const struct gb_record *record = gb_run_recorder_writer_record(recorder->writer);
     if (!gb_state_record(state, record, &recorder->params, &recorder->model, err)) {
         return false;
     }
@@ -672,7 +679,7 @@ bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
         !(now || checkpoint_due(recorder, seconds))) {
         return true;
     }
-    switch (gb_run_recorder_send(recorder->writer, err)) {
+    switch (gb_run_recorder_writer_send(recorder->writer, err)) {
     case GB_WRITER_SENT:
         recorder->held.fresh = false;
         recorder->written_at = seconds;
@@ -702,7 +709,7 @@ void gb_run_recorder_fail(struct gb_run_recorder *recorder,
         return;
     }
     /* a status that is still being written must not replace this one */
-    (void)(!recorder->writer || gb_run_recorder_wait(recorder->writer, &ignored));
+    (void)(!recorder->writer || gb_run_recorder_writer_wait(recorder->writer, &ignored));
     (void)gb_store_sync(recorder->store, &ignored);
     (void)gb_store_status(recorder->store, snapshot, &ignored);
 }
@@ -711,9 +718,9 @@ bool gb_run_recorder_save(struct gb_run_recorder *recorder, double seconds,
                           struct gb_error *err)
 {
     return !recorder->writer ||
-           (gb_run_recorder_wait(recorder->writer, err) &&
+           (gb_run_recorder_writer_wait(recorder->writer, err) &&
             gb_run_recorder_tick(recorder, seconds, GB_RUN_RECORDER_NOW, err) &&
-            gb_run_recorder_wait(recorder->writer, err));
+            gb_run_recorder_writer_wait(recorder->writer, err));
 }
 
 bool gb_run_recorder_missed(struct gb_run_recorder *recorder, char *text, size_t size)

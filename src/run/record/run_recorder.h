@@ -21,9 +21,9 @@ bool gb_run_recorder_writer_create(struct gb_writer **out, const struct gb_store
 /* Waits for files under way.  NULL is fine. */
 void gb_run_recorder_writer_destroy(struct gb_writer *writer);
 
-/* The record.  It belongs to the engine but for the time from gb_run_recorder_send until it is
+/* The record.  It belongs to the engine but for the time from gb_run_recorder_writer_send until it is
  * written, and stays as it was sent. */
-struct gb_record *gb_run_recorder_record(struct gb_writer *writer);
+struct gb_record *gb_run_recorder_writer_record(struct gb_writer *writer);
 
 enum gb_writer_outcome {
     GB_WRITER_SENT,
@@ -32,11 +32,11 @@ enum gb_writer_outcome {
 };
 
 /* Hands the record over. */
-enum gb_writer_outcome gb_run_recorder_send(struct gb_writer *writer,
-                                            struct gb_error *err);
+enum gb_writer_outcome gb_run_recorder_writer_send(struct gb_writer *writer,
+                                                   struct gb_error *err);
 
 /* Waits until nothing is being written; false and err when writing has failed. */
-bool gb_run_recorder_wait(struct gb_writer *writer, struct gb_error *err);
+bool gb_run_recorder_writer_wait(struct gb_writer *writer, struct gb_error *err);
 
 /* Seconds that the last state took to be written; 0 before the first. */
 double gb_run_recorder_writer_seconds(struct gb_writer *writer);

@@ -222,7 +222,7 @@ static struct line curve_list_line_of(const struct gb_session *session, int numb
 static void write_cell(const struct gb_pressure_row *row, char *text, size_t size)
 {
     struct gb_params small;
-    const bool quick = row->quick && gb_cost_params(row->params, &small);
+    const bool quick = row->quick && gb_cost_quick(row->params, &small);
     snprintf(text, size, "%s %lld", row->quick ? "quick" : "N",
              (long long)(quick ? small.count : row->params->count));
 }

@@ -106,7 +106,7 @@ void gb_file_commands_decline_cost(struct gb_app *app)
 void gb_file_commands_start_scene(struct gb_app *app)
 {
     const struct gb_params *params = gb_session_params(&app->screen.session);
-    if (gb_cost_enough(params) || !gb_session_quick_start(&app->screen.session)) {
+    if (gb_cost_is_quick(params) || !gb_session_quick_start(&app->screen.session)) {
         start_or_ask(app);
     }
 }

@@ -180,8 +180,8 @@ struct gb_pressure_value gb_pressure_rows_at(const struct gb_session *session,
                        gb_measured_density_at(gb_runner_curve(quick),
                                               session->quick_cell.points, pressure_pa));
     case GB_PRESSURE_ROW_PREVIOUS:
-        return of_cell(row->quick && gb_cost_params(row->params, &small) ? &small
-                                                                         : row->params,
+        return of_cell(row->quick && gb_cost_quick(row->params, &small) ? &small
+                                                                        : row->params,
                        of_previous(&session->previous[row->previous], pressure_pa));
     case GB_PRESSURE_ROW_REPLICAS:
         return of_replicas(&session->replica_band, pressure_pa);

@@ -45,7 +45,7 @@ static enum quick_cell_start quick_cell_start(struct gb_quick_cell *quick_cell,
 {
     struct gb_params quick;
     struct gb_runner *runner = NULL;
-    if (!gb_cost_params(full_params, &quick)) {
+    if (!gb_cost_quick(full_params, &quick)) {
         return QUICK_CELL_NONE;
     }
     if (!gb_runner_create(&runner, &quick, err)) {
