@@ -5,7 +5,7 @@
 extern "C" {
 #endif
 
-/* How an advance of a run has ended. */
+/* How an advance of a run ended. */
 enum gb_run_outcome {
     GB_RUN_OUTCOME_NONE,      /* the run has not ended */
     GB_RUN_OUTCOME_DONE,      /* the loading is complete */

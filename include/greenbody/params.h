@@ -255,7 +255,8 @@ struct gb_field {
     const char *fallback; /* default as typed in a preset */
     const char *meaning;  /* one sentence */
     const char *source;   /* paper and equation, or "numerical" */
-    /* Markup with <i>, <sub> and <sup>, quantities in italics (ISO 80000-1); NULL: none. */
+    /* Markup with <i>, <sub> and <sup>, quantities in italics (ISO 80000-1); NULL:
+     * none. */
     const char *symbol;
     const char *words; /* synonyms, "friction, sliding friction"; NULL: none */
     unsigned kinds;    /* bits of enum gb_kind that use the key; 0: all */

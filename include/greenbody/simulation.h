@@ -34,8 +34,8 @@ bool gb_simulation_create(struct gb_simulation **out,
  * GB_ERR_MACHINE. */
 bool gb_simulation_resume(struct gb_simulation **out, const char *directory,
                           struct gb_error *err);
-/* The same from the checkpoint before the last one, for a damaged last checkpoint.  The
- * points after it are computed again. */
+/* The same, but from the checkpoint before the last one, for a damaged last checkpoint.
+ * The points after it are computed again. */
 bool gb_simulation_resume_before(struct gb_simulation **out, const char *directory,
                                  struct gb_error *err);
 
@@ -92,16 +92,16 @@ void gb_simulation_on_progress(struct gb_simulation *simulation,
  *
  * GB_RUN_OUTCOME_NONE means that the points are recorded and the run has not ended.
  * You may advance again after it, and after GB_RUN_OUTCOME_CANCELLED; results are
- * bit-identical.  err has the reason why a run was stopped, cancelled or failed.  After
+ * bit-identical. err has the reason why a run was stopped, cancelled or failed.  After
  * the end of a run the function returns the same outcome again.
  *
- * Errors: GB_RUN_OUTCOME_FAILED with GB_ERR_INPUT for negative points, a second
- * advance at the same time and a simulation of another process.  The simulation does
- * not change then. */
+ * Errors: GB_RUN_OUTCOME_FAILED with GB_ERR_INPUT if points is negative, if another
+ * advance is under way, or if another process created the simulation.  The simulation
+ * does not change then. */
 enum gb_run_outcome gb_simulation_advance(struct gb_simulation *simulation,
                                           int64_t points, struct gb_error *err);
 
-/* Ends the current advance, or else the next one, after its slice of 5 to 20 ms.
+/* Ends the current advance, or else the next one, within 5 to 20 ms.
  *
  * reason   one line, which must outlive the simulation; NULL: "cancelled" */
 void gb_simulation_cancel(struct gb_simulation *simulation, const char *reason);
