@@ -5,9 +5,9 @@
 
 #include "greenbody/status.h"
 
-/* Checks that every public function makes before it looks at its arguments. */
+/* Checks that every public function makes first. */
 
-/* An object, a text or a place for a result that the function cannot do without. */
+/* Fails for a NULL object, text or result. */
 static inline bool gb_arguments_given(const void *argument, const char *name,
                                       struct gb_error *err)
 {
@@ -15,7 +15,7 @@ static inline bool gb_arguments_given(const void *argument, const char *name,
            gb_error_set(err, GB_ERR_INPUT, "%s = NULL: expected a pointer", name);
 }
 
-/* Room for `needed` bytes or numbers. */
+/* Fails if the caller's buffer has less room than `needed` bytes or numbers. */
 static inline bool gb_arguments_fit(size_t given, size_t needed, const char *name,
                                     struct gb_error *err)
 {

@@ -1,4 +1,7 @@
-/* The arrays of a packing, one row each. */
+/* Arrays of a packing by name: one table row per array.  A row's `find` returns a
+ * pointer into the memory of the engine or of a state where the data exist in this
+ * form.  Otherwise it computes the array once and keeps it in struct gb_array_source
+ * until gb_array_forget. gb_array_find adds shape, strides and units. */
 #include <math.h>
 #include <string.h>
 
@@ -23,12 +26,12 @@ static const struct unit_row units[] = {
     [PRESSURE] = {"Pa", "Pa"},
 };
 
-/* Where the rows of an array begin. */
+/* Memory of the rows of an array. */
 struct rows {
-    const void *data; /* NULL: the packing has none */
+    const void *data; /* NULL: the packing lacks this array */
     int64_t count;
-    int64_t stride; /* bytes; 0 of rows that lie without gaps */
-    bool constant;  /* one row stands for all */
+    int64_t stride; /* bytes; 0: no gaps between rows */
+    bool constant;  /* one row is valid for all */
 };
 
 struct array_row {
@@ -36,7 +39,7 @@ struct array_row {
     enum gb_array_type type;
     int columns;
     enum unit unit;
-    /* False with err: out of memory. */
+    /* False with err: GB_ERR_MEMORY. */
     bool (*find)(struct gb_array_source *packing, struct rows *rows,
                  struct gb_error *err);
     const char *doc;
@@ -57,7 +60,7 @@ void gb_array_forget(struct gb_array_source *packing)
     }
 }
 
-/* The state, listed where it is not yet.  NULL and err: GB_ERR_MEMORY. */
+/* The state of the packing, listed at the first call.  NULL and err: GB_ERR_MEMORY. */
 static const struct gb_state *state_of(struct gb_array_source *packing,
                                        struct gb_error *err)
 {
@@ -78,7 +81,7 @@ static const struct gb_bed *bed_of(const struct gb_array_source *packing)
     return packing->experiment ? packing->experiment->loading->bed : NULL;
 }
 
-/* Rows of four doubles; none where the packing is in no die. */
+/* Rows of four doubles of a die. */
 static bool bed_rows(const struct gb_bed *bed, const gb_bed_row *row, struct rows *rows)
 {
     *rows = (struct rows){.data = row, .count = bed->count, .stride = sizeof *row};
@@ -137,7 +140,7 @@ static bool find_diameter(struct gb_array_source *packing, struct rows *rows,
     return true;
 }
 
-/* Rows that the state has, where it has them. */
+/* Rows of a member of the state; no rows if the state lacks it. */
 static bool listed(struct gb_array_source *packing, size_t member, size_t count,
                    struct rows *rows, struct gb_error *err)
 {
@@ -167,8 +170,8 @@ static bool world_rows(const struct gb_world *world, const double *data,
     return true;
 }
 
-/* The world has arcs, the diameter times the angle, in place of angles: numbers times the
- * diameter to the power 1 or -1, in memory of the packing. */
+/* The world stores arcs (diameter times angle) instead of angles.  Multiplies by the
+ * diameter to the power 1 or -1 and keeps the result in the packing. */
 static bool angular_rows(struct gb_array_source *packing, enum gb_array_angular which,
                          const double *arcs, int power, struct rows *rows,
                          struct gb_error *err)
@@ -190,7 +193,7 @@ static bool angular_rows(struct gb_array_source *packing, enum gb_array_angular 
     return *angles && world_rows(world, *angles, rows);
 }
 
-/* The same for a bed, whose arcs are radii times angles. */
+/* The same for a bed, which stores radius times angle. */
 static bool bed_angles(struct gb_array_source *packing, enum gb_array_angular which,
                        const gb_bed_row *arcs, int power, struct rows *rows,
                        struct gb_error *err)
@@ -232,7 +235,7 @@ static bool find_torque(struct gb_array_source *packing, struct rows *rows,
                             offsetof(struct gb_state, count), rows, err);
 }
 
-/* NULL: a scene without time, or no simulation. */
+/* NULL: a scene without time, or a packing from a file. */
 static const struct gb_verlet *verlet_of(const struct gb_array_source *packing)
 {
     const struct gb_loading *loading =
@@ -299,7 +302,7 @@ LISTED(find_contact_radius, contact_radius, pair_count)
 LISTED(find_wall, wall, wall_count)
 LISTED(find_wall_force, wall_force, wall_count)
 
-/* The pairs across gaps, found where they are not yet.  NULL and err: those of
+/* The pairs that attract across gaps, found at the first call.  NULL and err: errors of
  * gb_state_forces_gaps_init. */
 static const struct gb_state_gaps *gaps_of(struct gb_array_source *packing,
                                            struct gb_error *err)
@@ -413,7 +416,7 @@ double gb_array_second_per_time(const struct gb_array_source *packing)
                                 : (double)NAN;
 }
 
-/* One unit in SI units. */
+/* Value of one unit in SI units. */
 static double si_factor(const struct gb_array_source *packing, enum unit unit)
 {
     const struct gb_model *model =
@@ -449,7 +452,7 @@ static const struct array_row *find_row(const char *name, struct gb_error *err)
     return found;
 }
 
-/* Hands over as much of the struct as the caller knows. */
+/* Copies the members that fit into the caller's struct, which may be an older version. */
 static bool hand_over(struct gb_array *out, struct gb_array *array, struct gb_error *err)
 {
     const size_t size = MIN(out->size, sizeof *array);

@@ -6,12 +6,12 @@
 #include "io/state_forces.h"
 #include "run/experiment.h"
 
-/* Arrays that the engine of a periodic cell has as arcs. */
+/* Arrays that are stored as arcs and must be converted to angles. */
 enum gb_array_angular { GB_ARRAY_TORQUE, GB_ARRAY_SPIN, GB_ARRAY_ANGULAR };
 
-/* A packing under way or read from a file, and what was computed of it. */
+/* A packing of a run or from a file, with the arrays computed from it. */
 struct gb_array_source {
-    struct gb_experiment *experiment; /* under way; NULL: read from a file */
+    struct gb_experiment *experiment; /* the run; NULL: read from a file */
     struct gb_state
         *state; /* owned; under way a list of the contacts, when first needed */
     double *diameter, *stress; /* owned; computed when first needed */
@@ -24,13 +24,13 @@ struct gb_saved_state {
     struct gb_array_source packing;
 };
 
-/* What was computed for the present positions is no longer true. */
+/* Frees all computed arrays; call it when the positions change. */
 void gb_array_forget(struct gb_array_source *packing);
 
-/* T in s; NaN in scenes without time. */
+/* The time unit T in s; NaN in scenes without time. */
 double gb_array_second_per_time(const struct gb_array_source *packing);
 
-/* The array of a name; errors as of gb_saved_state_array. */
+/* Finds an array by its name.  Errors: see gb_saved_state_array. */
 bool gb_array_find(struct gb_array_source *packing, const char *name,
                    struct gb_array *array, struct gb_error *err);
 

@@ -57,7 +57,7 @@ size_t gb_contact_law_rows(const struct gb_contact_law_request *request)
     if (request->history == GB_CONTACT_LAW_POINTS) {
         return request->count;
     }
-    /* no memory holds more; the product of rows and columns stays a size_t */
+    /* more does not fit into memory; the limit keeps rows times columns within size_t */
     return request->history == GB_CONTACT_LAW_PATH && request->count < SIZE_MAX >> 16
                ? gb_law_table_of_path(request->count)
                : 0;
@@ -65,7 +65,7 @@ size_t gb_contact_law_rows(const struct gb_contact_law_request *request)
 
 /* --- the request as the options of `greenbody law` --------------------------------- */
 
-/* Rows as they come. */
+/* Destination of the rows. */
 struct rows {
     double *out;
     size_t room, filled;
@@ -133,7 +133,7 @@ static bool find(const struct gb_contact_law_request *request,
                         needed ? "sc, fcc, bcc or diamond" : "none");
 }
 
-/* Is everything there that the request needs? */
+/* Checks that the request has everything that the law needs. */
 static bool check(const struct gb_contact_law_request *request,
                   const struct gb_law_table_law *law,
                   const struct gb_parameters *parameters, const double *out, size_t room,
@@ -162,7 +162,7 @@ static bool check(const struct gb_contact_law_request *request,
     return gb_arguments_fit(room, rows * columns, "room", err);
 }
 
-/* The points, some at a time, so that no text of all is needed. */
+/* Computes the points in blocks, because each point is passed as text. */
 static bool compute_points(struct gb_law_table_request *options,
                            const struct gb_contact_law_request *request,
                            const struct gb_params *params, struct rows *rows,

@@ -16,7 +16,7 @@ static struct gb_params *params_of(const struct gb_parameters *parameters)
     return gb_preset_params(parameters->preset);
 }
 
-/* Takes the preset; NULL is an error that was told. */
+/* Takes ownership of the preset.  NULL: reading failed and err is set. */
 static bool take(struct gb_parameters **out, struct gb_preset *preset,
                  struct gb_error *err)
 {

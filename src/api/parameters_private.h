@@ -5,12 +5,12 @@
 #include "greenbody/params.h"
 #include "io/preset.h"
 
-/* The inside of gb_parameters. */
+/* Contents of the opaque gb_parameters. */
 struct gb_parameters {
     struct gb_preset *preset; /* owned */
 };
 
-/* A copy of params without a file. */
+/* Parameters with a copy of params and no file. */
 bool gb_parameters_wrap(struct gb_parameters **out, const struct gb_params *params,
                         struct gb_error *err);
 

@@ -20,7 +20,7 @@ struct gb_recorded_run {
     GPtrArray *packings; /* paths */
 };
 
-/* A kept state and its place in the run. */
+/* A kept state and the step at which it was written. */
 struct kept {
     char *path;
     int64_t step;
@@ -33,7 +33,7 @@ static int by_step(const void *a, const void *b)
     return order ? order : strcmp(first->path, second->path);
 }
 
-/* Step of a state; that of a file that cannot be read is the first. */
+/* Step of a state; -1 for a file that cannot be read, so that it sorts first. */
 static int64_t step_of(const char *path)
 {
     int64_t step = -1;

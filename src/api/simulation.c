@@ -1,3 +1,9 @@
+/* Simulations: creation, recording, callbacks and advances; simulation_read.c has
+ * points, arrays and states.  A simulation wraps the run loop (run/run_loop.h), which
+ * has the experiment and the recorder, and adds a curve of all points.  The first
+ * advance builds the packing, unless the simulation was resumed.  `advancing` rejects a
+ * second advance at the same time.  `process` rejects most calls in a child of fork,
+ * which has neither the threads nor the files. */
 #include <string.h>
 #include <unistd.h>
 
@@ -176,7 +182,7 @@ static void drop_begin(struct gb_simulation *simulation)
     }
 }
 
-/* From the checkpoint; without one the first advance builds the packing. */
+/* Without a checkpoint the first advance builds the packing. */
 bool gb_simulation_open(struct gb_simulation *simulation, const char *directory,
                         enum gb_run_recorder_from from, struct gb_error *err)
 {
@@ -253,11 +259,11 @@ bool gb_simulation_usable(const struct gb_simulation *simulation, bool within,
                         "an advance is under way; expected this call after it");
 }
 
-/* What fork has left of a simulation: threads and locks are the parent's. */
+/* Frees what a child of fork has inherited; threads and locks belong to the parent. */
 static void destroy_inherited(struct gb_simulation *simulation)
 {
     if (atomic_load(&simulation->advancing)) {
-        return; /* its memory was in the middle of a change */
+        return; /* fork interrupted a change; its memory is inconsistent */
     }
     gb_simulation_release(simulation);
     gb_curve_destroy(simulation->curve);
@@ -410,7 +416,7 @@ void gb_simulation_leave(struct gb_simulation *simulation)
     }
 }
 
-/* The time between two advances does not count for the run. */
+/* Excludes the time between two advances from the run's time. */
 static void go_on(struct gb_simulation *simulation)
 {
     if (simulation->returned_s > 0.0) {
@@ -431,7 +437,7 @@ static enum gb_run_outcome advance(struct gb_simulation *simulation, int64_t poi
         simulation->resumed[0] = '\0';
     }
     const enum gb_run_outcome outcome = gb_run_loop_advance(loop, points);
-    /* cancelled at the last of the points */
+    /* cancelled during the last of the points: let the loop report it */
     return outcome == GB_RUN_OUTCOME_NONE && atomic_load(&simulation->reason)
                ? gb_run_loop_advance(loop, 1)
                : outcome;

@@ -1,4 +1,4 @@
-/* Reading a simulation: points, arrays, states. */
+/* Read access to a simulation: points, arrays, states; and loading and saving a state. */
 #include <math.h>
 #include <string.h>
 
@@ -58,7 +58,7 @@ bool gb_simulation_array(struct gb_simulation *simulation, const char *name,
            gb_array_find(&simulation->packing, name, array, err);
 }
 
-/* What the engine has beside the list of contacts: into the state. */
+/* Copies the arrays of the engine that the list of contacts lacks. */
 static bool copy_optional(struct gb_array_source *packing, struct gb_state *state,
                           struct gb_error *err)
 {
@@ -143,7 +143,7 @@ bool gb_simulation_save(struct gb_simulation *simulation, const char *path,
     return done;
 }
 
-/* The experiment of a record, in place of the packing that would be built. */
+/* Resumes the experiment of a record instead of building a packing. */
 static bool load(struct gb_simulation *simulation, struct gb_record *record,
                  const char *path, struct gb_error *err)
 {
