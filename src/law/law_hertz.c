@@ -5,8 +5,8 @@
 
 #include "law/storakers.h"
 
-/* Greatest pressure over yield stress when a sphere starts to flow; von Mises, nu = 0.3.
- * Source: P3 (30). */
+/* Greatest contact pressure over yield stress when a sphere starts to flow; von Mises,
+ * nu = 0.3.  Source: P3 (30). */
 static const double pressure_over_yield = 1.61;
 
 static double plane_compliance(const struct gb_elastic *material)

@@ -44,7 +44,7 @@ static double log_tail_integral(double h)
     if (h > series_border) {
         return h - 0.5 * h * h + (1.0 - h) * gb_portable_log1p(-h);
     }
-    /* two chains side by side: curve.csv asks for this at every contact */
+    /* two independent chains for speed: curve.csv needs this for every contact */
     const double h2 = h * h;
     double a = even[6], b = odd[5];
     for (int k = 5; k >= 0; k--) {

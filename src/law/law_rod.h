@@ -10,11 +10,12 @@ struct gb_law_rod {
     double pivot; /* (pi/3) M, factor of the second term of (9) */
 };
 
-/* Factors of P1 (1) and (9); Poisson's ratio below 1/2, where M is infinite. */
+/* Sets the factors of P1 (1) and (9).  Poisson's ratio must be below 1/2, where M is
+ * infinite. */
 void gb_law_rod_init(struct gb_law_rod *law, double poisson);
 
-/* f_e(h) (E d^2); 0 for h <= 0, grows without bound as h -> 1, INFINITY at h >= 1.  Limit
- * h -> 0: Hertz.  Source: P1 (1). */
+/* f_e(h) (E d^2): 0 for h <= 0, Hertz' law for small h, unbounded as h -> 1, INFINITY
+ * at h >= 1.  Source: P1 (1). */
 double gb_law_rod_force(const struct gb_law_rod *law, double h);
 /* df_e/dh (E d); 0 for h <= 0, INFINITY at h >= 1.  The derivative of P1 (1): the printed
  * (2) lacks the factor (1 - nu)/(1 + nu) of M. */

@@ -4,9 +4,9 @@
 #include "law/law_bridge.h"
 #include "law/law_rod.h"
 
-/* Shear (4), (5), pivoting (6)-(11) and rolling (12) of P1: three springs, one stick-slip
- * rule.  Every stiffness is per half of the relative motion (P1: displacement and angle
- * of the contact area).  Reduced units. */
+/* Shear (4), (5), pivoting (6)-(11) and rolling (12) of P1: three springs with one
+ * stick-slip rule.  Stiffnesses refer to half of the relative motion, which is P1's
+ * displacement and angle of the contact area.  Reduced units. */
 struct gb_law_slip {
     double shear;    /* 4 / ((2-nu)(1+nu)); times a: stiffness */
     double pivot;    /* 8 / (3 (1+nu)); times a^3 */
@@ -14,10 +14,11 @@ struct gb_law_slip {
     double mu;       /* Coulomb cap of shear, mu f_e */
     double mu_pivot; /* cap of pivoting, mu_f M(a) */
     double strength; /* sigma_b, E */
-    double motion;   /* share of the relative motion a spring sees: 1/2, or 1 ("full") */
+    double motion;   /* loads a spring per relative motion: 1/2, or 1 ("full") */
 };
 
-/* mu, mu_pivot and motion have no unit; strength in E.  Source: P1 (4), (6), (12). */
+/* Sets the factors. mu, mu_pivot and motion are pure numbers; strength is in E.
+ * Source: P1 (4), (6), (12). */
 void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double mu_pivot,
                       double strength, double motion);
 
@@ -27,8 +28,8 @@ double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a);
 double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a);
 double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a);
 
-/* Caps of a bridge with radius a; also what sigma_b allows a plain contact of radius a.
- */
+/* Caps of a bridge with radius a.  They are also the limits that sigma_b sets for a
+ * contact of radius a without a bridge. */
 double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a);
 double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a);
 

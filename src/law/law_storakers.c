@@ -16,7 +16,8 @@ double gb_law_storakers_strength(double strength_i, double strength_j, double ex
     if (exponent <= 0.0 || !(weak > 0.0)) {
         return weak;
     }
-    /* (18) divided by the weaker one's term: nothing overflows at small m */
+    /* (18) divided by the term of the weaker body, so that nothing overflows at small m
+     */
     return weak * gb_portable_pow(1.0 + gb_portable_pow(weak / strong, 1.0 / exponent),
                                   -exponent);
 }
@@ -96,11 +97,12 @@ double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, 
 double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,
                                  double deepest)
 {
-    /* to the bit: an elastic contact returns along its way in */
+    /* in the elastic range this is exactly `deepest`: the contact unloads along its
+     * loading curve */
     return deepest > 0.0 ? elastic_part(law, radius, deepest) : 0.0;
 }
 
-/* h - h0, the overlap that Hertz' law sees below the deepest one. */
+/* h - h0: the overlap in Hertz' law when the contact is below its deepest overlap. */
 static double elastic_overlap(const struct gb_law_storakers *law, double radius,
                               double deepest, double h)
 {
@@ -147,7 +149,7 @@ double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law,
     if (!(h > 0.0)) {
         return 0.0;
     }
-    /* what is left in a printed contact as it opens is not returned */
+    /* a printed contact opens with a force left; that energy is not returned */
     const double from = elastic_overlap(law, radius, deepest, h);
     const double to = elastic_overlap(law, radius, deepest, 0.0);
     return gb_law_hertz_energy(&law->hertz, radius, from) -

@@ -107,8 +107,8 @@ double gb_law_unequal_attraction_energy(const struct gb_law_unequal *law, double
     if (law->strength == 0.0) {
         return 0.0;
     }
-    /* the integral of s/((s^2-1)^2 (s^2-o)^2) by partial fractions in s^2, with c = 1-o;
-     * s in D */
+    /* the integral of s/((s^2-1)^2 (s^2-o)^2) by partial fractions in s^2; s is in D, c
+     * = 1-o */
     const double mean_diameter = law->mean_diameter, c = law->diameter_ratio;
     const double s = larger(r / mean_diameter, 1.0) + law->shift / mean_diameter;
     const double near = s * s - 1.0, wide = near + c;
@@ -123,7 +123,8 @@ double gb_law_unequal_equilibrium(const struct gb_law_unequal *law)
     if (!(law->adhesion > 0.0)) {
         return 0.0;
     }
-    /* Hertz alone needs more overlap; from there Newton's way down is monotonic */
+    /* start at the larger overlap of Hertz' law: Newton's method decreases
+     * monotonically from there */
     const double reduced = law->diameter_ratio * law->mean_diameter;
     double x = gb_portable_cbrt(law->adhesion / (law->rod.hertz * root(reduced)));
     double h = x * x, change = 1.0;

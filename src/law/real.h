@@ -1,15 +1,16 @@
 #ifndef GB_LAW_REAL_H
 #define GB_LAW_REAL_H
 
-/* What the laws need of a precision: included by law/real_f64.h, law/real_f32.h and
- * law/real_exact.h, which define `real`, `real_bits` and INLINE first.
+/* Helpers of the laws for one precision. law/real_f64.h, law/real_f32.h and
+ * law/real_exact.h define `real`, `real_bits` and INLINE, then include this file.
  *
- * The laws run in loops over pairs, which have no branches: conditions select between
- * computed values, and masks (1 or 0) multiply.  A hidden branch (&&, or an expensive side
- * of ?:) would stop the compiler from vectorising the loop.
+ * The laws run in loops over pairs without branches.  Conditions select between
+ * computed values, and masks (1 or 0) multiply.  A hidden branch (&&, or ?: with an
+ * expensive side) would stop the compiler from vectorising the loop.
  *
- * Constants are whole numbers where possible, which convert to the type of the other
- * operand; any other constant is cast to real, or the loop would compute in double. */
+ * Constants are whole numbers where possible, because these convert to the type of the
+ * other operand.  Any other constant is cast to real; without the cast the loop would
+ * compute in double. */
 
 #include <stdbool.h>
 #include <string.h>
@@ -35,9 +36,9 @@ INLINE real where(bool condition, real x)
     return condition ? x : 0;
 }
 
-/* All bits where the condition holds, else none; `where` and ?: for such masks.  The
- * compiler would load the numbers of a condition under a mask, which not every processor
- * can. */
+/* All bits set where the condition holds, else none.  Use it with `selected` and
+ * `masked` instead of ?:, for which the compiler would emit masked loads that not every
+ * processor has. */
 INLINE real_bits bit_mask(bool condition)
 {
     return condition ? ~(real_bits)0 : 0;

@@ -1,8 +1,9 @@
 #ifndef GB_LAW_REAL_EXACT_H
 #define GB_LAW_REAL_EXACT_H
 
-/* Double precision for single contacts: every overlap up to a whole diameter, to the last
- * digit, where the kernels' fits end at half of one.  Include this before a law. */
+/* Double precision for single contacts.  It is accurate to the last digit for every
+ * overlap up to a whole diameter, whereas the fits of the kernels end at half a
+ * diameter.  Include this before a law. */
 
 #include <math.h>
 #include <stdint.h>
@@ -14,9 +15,9 @@
 typedef double real;
 typedef uint64_t real_bits;
 
-/* Below this overlap the logarithms are summed as power series: h + ln(1 - h) loses
- * digits to cancellation as h -> 0.  The first term left out is below 2^-53 of the sum at
- * the border. */
+/* Below this overlap the logarithms are summed as power series, because h + ln(1 - h)
+ * loses digits to cancellation as h -> 0.  The first omitted term is below 2^-53 of the
+ * sum at this overlap. */
 static const double series_border = 0.0625;
 
 enum { SERIES_TERMS = 14 };
@@ -45,8 +46,8 @@ INLINE real log_tail(real h, real s)
     return sum * h * h;
 }
 
-/* (1/4) ln((1+s)/(1-s)) - s/2 - s^3/6 over s h^2 / 2 with s = sqrt(h): 1/5 + h/7 + h^2/9
- * + ..., for 0 <= h < 1. */
+/* (1/4) ln((1+s)/(1-s)) - s/2 - s^3/6 divided by s h^2 / 2, with s = sqrt(h): 1/5 + h/7
+ * + h^2/9 + ..., for 0 <= h < 1. */
 INLINE real moment_tail(real h)
 {
     if (h > series_border) {

@@ -1,9 +1,9 @@
 #ifndef GB_LAW_REAL_F32_H
 #define GB_LAW_REAL_F32_H
 
-/* Single precision for the loops of the kernels.  Twice the lanes and half the memory;
- * relative error of forces 1e-6, far below the tolerance of a relaxation in single
- * precision (gb_model chooses).  Include this before a law. */
+/* Single precision for the loops of the kernels: twice the lanes and half the memory.
+ * The relative error of forces is 1e-6, far below the tolerance of a relaxation in
+ * single precision (gb_model chooses).  Include this before a law. */
 
 #include <math.h>
 #include <stdint.h>
@@ -30,7 +30,8 @@ INLINE real root_newton(real y, real half)
     return y * (1.5F - half * y * y);
 }
 
-/* 1/sqrt(x) from below within 5e-6, for springs that are cut slightly below their caps. */
+/* 1/sqrt(x), at most 5e-6 too small.  Springs at their caps are therefore cut slightly
+ * below them. */
 INLINE real inverse_root_below(real x)
 {
     const float half = 0.5F * x;
@@ -63,9 +64,9 @@ INLINE real log_tail(real h, real s)
     return 2.0F * q * (1.0F - 0.5F * h + s * sum);
 }
 
-/* Second term of M(a) of (9) without its factor: (1/4) ln((1+s)/(1-s)) - s/2 - s^3/6 over
- * s h^2 / 2 with s = sqrt(h), which is 1/5 + h/7 + h^2/9 + ..., for 0 <= h <= 1/2; the
- * relative error of the fit by Chebyshev polynomials is 4e-7. */
+/* Second term of M(a) of (9) without its factor: (1/4) ln((1+s)/(1-s)) - s/2 - s^3/6
+ * divided by s h^2 / 2, with s = sqrt(h).  This is 1/5 + h/7 + h^2/9 + ..., for 0 <= h
+ * <= 1/2; the Chebyshev fit has a relative error of 4e-7. */
 INLINE real moment_tail(real h)
 {
     const float h2 = h * h, h4 = h2 * h2;

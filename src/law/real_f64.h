@@ -13,9 +13,9 @@
 typedef double real;
 typedef uint64_t real_bits;
 
-/* Estimate of 1/sqrt(x) from the bits, within 3.5 %, and a step of Newton's iteration.
- * Multiplications and integer shifts are fast in every vector width; root and division
- * share one slow unit. */
+/* Estimates 1/sqrt(x) from the bits of x, within 3.5 %, and refines it by one Newton
+ * step.  Multiplications and integer shifts are fast for every vector width, whereas
+ * roots and divisions share one slow unit. */
 INLINE real root_estimate(real x)
 {
     real_bits of_x;
@@ -39,7 +39,7 @@ INLINE real inverse_root(real x)
     return root_newton(root_newton(rough, half), half);
 }
 
-/* The same in this precision. */
+/* No need for a lower bound in double precision: the same as inverse_root. */
 INLINE real inverse_root_below(real x)
 {
     return inverse_root(x);
@@ -55,13 +55,14 @@ INLINE real magnitude(real x)
     return fabs(x);
 }
 
-/* -(h + ln(1 - h)) for 0 <= h <= 1/2 to the last digit, with s = h / (2 - h):
- * 2 (s^2/(1+s) + s^3/3 + s^5/5 + ...), all terms positive; the series after the first
- * term is fitted by Chebyshev polynomials with a relative error of 3e-17. */
+/* -(h + ln(1 - h)) for 0 <= h <= 1/2 to the last digit, with s = h / (2 - h): 2
+ * (s^2/(1+s) + s^3/3 + s^5/5 + ...), where all terms are positive.  The series after
+ * the first term is a Chebyshev fit with a relative error of 3e-17. */
 INLINE real log_tail(real h, real s)
 {
     const double q = s * s;
-    /* a tree of pairs: a chain of ten dependent sums would stall the vector units */
+    /* summed as a tree: a chain of ten dependent additions would stall the vector units
+     */
     const double q2 = q * q, q4 = q2 * q2;
     const double p01 = 0.33333333333333331 + q * 0.20000000000007292;
     const double p23 = 0.14285714283554379 + q * 0.11111111358713932;
@@ -86,9 +87,9 @@ INLINE double of_bits(uint64_t bits)
     return x;
 }
 
-/* log2 of a normal positive number: u = 2^n m with m in [sqrt(1/2), sqrt 2), and ln m = 2
- * atanh s, s = (m - 1)/(m + 1), |s| < 0.1716.  The series ends with s^21; the rest is
- * below 2 s^23/(23 (1 - s^2)) = 2.2e-19, below the rounding error. */
+/* log2 of a positive normal number: u = 2^n m with m in [sqrt(1/2), sqrt 2), and ln m =
+ * 2 atanh s, s = (m - 1)/(m + 1), |s| < 0.1716.  The series ends with s^21; the rest is
+ * below 2 s^23/(23 (1 - s^2)) = 2.2e-19, less than the rounding error. */
 INLINE double log2_of(double u)
 {
     const uint64_t least = 0x3fe6a09e667f3bcdU; /* sqrt(1/2) */
@@ -110,8 +111,8 @@ INLINE double log2_of(double u)
     return n + 2.0 * M_LOG2E * (s + s * q * sum);
 }
 
-/* 2^t for |t| < 1000: t = n + f with |f| <= 1/2, Taylor's series of e^(f ln 2) up to the
- * 13th power; the rest is below 0.3466^14/14! = 4.1e-18. */
+/* 2^t for |t| < 1000: t = n + f with |f| <= 1/2, and Taylor's series of e^(f ln 2) up
+ * to the 13th power.  The rest is below 0.3466^14/14! = 4.1e-18. */
 INLINE double exp2_of(double t)
 {
     const double shift = 6755399441055744.0; /* 1.5 * 2^52: integers in the low bits */

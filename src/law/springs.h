@@ -1,21 +1,24 @@
 #ifndef GB_LAW_SPRINGS_H
 #define GB_LAW_SPRINGS_H
 
-/* The springs of a contact in a cell: shear (4), (5), pivoting (6)-(11) and rolling (12) of
- * P1.  This is the only place that has their stiffnesses and caps, as law/normal.h is for
- * the normal force; include it after a law/real_*.h.
+/* The springs of a contact in a cell: shear (4), (5), pivoting (6)-(11) and rolling
+ * (12) of P1.  Only this file has their stiffnesses and caps, and law/normal.h the
+ * normal force.  Include it after a law/real_*.h.
  *
- * A spring is stored as half of the relative motion.  It is turned into the present tangent
- * plane keeping its length, lengthened by the motion, and cut back where its load is above
- * its cap.  a: contact radius, a2: its square; f_e: elastic force. */
+ * A spring stores half of the relative motion.  Each step rotates it into the present
+ * tangent plane at constant length, adds the motion, and cuts it back if its load
+ * exceeds its cap.
+ *
+ * a, a2   contact radius and its square
+ * f_e     elastic force */
 
 #include "law/law_slip.h"
 #include "law/normal.h"
 
 /* --- kinematics --------------------------------------------------------------------- */
 
-/* A spring rotated into the tangent plane, but shorter by what was normal to it; its squares
- * before and after. */
+/* A spring projected on the tangent plane, not yet restored to its length; its squared
+ * length before and after the projection. */
 struct rotated {
     real x, y, z, before, after;
 };
@@ -29,7 +32,7 @@ INLINE struct rotated rotate_spring(real nx, real ny, real nz, real x, real y, r
     return (struct rotated){x, y, z, before, x * x + y * y + z * z};
 }
 
-/* Factor that restores the length of a vector after its normal part was removed, from the
+/* Factor that restores the length of a vector whose normal part was removed, from the
  * squared lengths before and after. */
 INLINE real keep_length(real before, real after)
 {
@@ -38,9 +41,9 @@ INLINE real keep_length(real before, real after)
 
 /* --- contact radius ----------------------------------------------------------------- */
 
-/* Squared overlap whose root is twice the spring radius, P1 section II.A: a_ch of a bridge
- * belongs to its deepest overlap, or to the printed form at the present one.  Of unequal
- * sizes with d' in place of the diameter. */
+/* Squared overlap whose root is twice the spring radius, P1 section II.A.  A bridge
+ * uses its deepest overlap, or the printed form at the present overlap; unequal sizes
+ * multiply by d'. */
 INLINE real radius_square(struct terms t, real length, real deepest, real h, real reduced)
 {
     const real overlap =
@@ -48,7 +51,8 @@ INLINE real radius_square(struct terms t, real length, real deepest, real h, rea
     return t.sized ? reduced * overlap : overlap;
 }
 
-/* Radius of the springs from its square; mostly half the known root of the overlap. */
+/* Radius of the springs from its square.  Except for the printed form it is half the
+ * root that is already known. */
 INLINE real radius(struct terms t, real square, bool live, real root_of_overlap)
 {
     return t.printed ? root(larger(square, 0)) : where(live, (real)0.5 * root_of_overlap);
@@ -79,13 +83,13 @@ INLINE struct slip_law slip_law(const struct gb_law_slip *slip,
     };
 }
 
-/* k_t of (4); a factor is a member of slip_law. */
+/* k_t of (4); `factor` is a member of slip_law. */
 INLINE real shear_stiffness(real factor, real a)
 {
     return factor * a;
 }
 
-/* Of (6) and (12). */
+/* Stiffnesses of (6) and (12). */
 INLINE real pivot_stiffness(real factor, real a2, real a)
 {
     return factor * a2 * a;
@@ -96,14 +100,14 @@ INLINE real roll_stiffness(real factor, real a2, real a)
     return factor * a2 * a;
 }
 
-/* (5): what sigma_b allows, and without a bridge no more than friction. */
+/* (5): the limit by sigma_b; without a bridge also the friction limit. */
 INLINE real shear_cap(const struct slip_law *slip, bool bridge, real a2, real elastic)
 {
     const real strength = a2 * slip->bond;
     return bridge ? strength : smaller(slip->mu * elastic, strength);
 }
 
-/* (8)-(11), alike. */
+/* (8)-(11): the same for pivoting. */
 INLINE real pivot_cap(const struct slip_law *slip, bool bridge, real a2, real a,
                       real moment)
 {
@@ -111,14 +115,15 @@ INLINE real pivot_cap(const struct slip_law *slip, bool bridge, real a2, real a,
     return bridge ? strength : smaller(slip->mu_pivot * moment, strength);
 }
 
-/* Of the rolling moment of a bridge, (12). */
+/* Cap of the rolling moment of a bridge, (12). */
 INLINE real roll_cap(real a, real elastic)
 {
     return a * larger(elastic, 0) * (real)(1.0 / 3.0);
 }
 
-/* (5), (11): does shear (v2: square of its spring) or pivoting break a bridge?  Both sides
- * of both caps are squared, and divided by a2 and by the third power of a2. */
+/* (5), (11): does shear (v2: squared length of its spring) or pivoting break a bridge?
+ * Both sides of the shear condition are squared and divided by a2, those of the
+ * pivoting condition by a2^3. */
 INLINE bool breaks(const struct slip_law *slip, real a2, real v2, real twist)
 {
     const real tear = slip->bond * slip->bond;
@@ -126,8 +131,8 @@ INLINE bool breaks(const struct slip_law *slip, real a2, real v2, real twist)
            (slip->pivot * slip->pivot * twist * twist > (real)0.25 * tear);
 }
 
-/* M(a) of (9): first moment of the contact pressure; root: of d' h, tail: moment_tail of
- * h/D. */
+/* M(a) of (9): first moment of the contact pressure. root_of: sqrt(d' h); tail:
+ * moment_tail of h/D. */
 INLINE real contact_moment(const struct slip_law *slip, real h, real root_of, real tail)
 {
     return h * h * (slip->plate + slip->rod * root_of * tail);
@@ -140,18 +145,18 @@ INLINE real unequal_contact_moment(const struct slip_law *slip, struct pair_size
     return size.reduced * (h * h) * (slip->plate + rod * size.inverse_mean);
 }
 
-/* --- in the plane ------------------------------------------------------------------- */
+/* --- in 2D ------------------------------------------------------------------- */
 
-/* A spring is one number there, so the caps of motions need no root: caps over
- * stiffnesses, without the contact's size. */
+/* In 2D a spring is one number, so its caps can be given as motions (cap / stiffness)
+ * without a root.  The size of the contact is a separate factor. */
 struct plane_caps {
-    real tear; /* of a bridge, squared: times (2 a)^2 */
-    real bond; /* times a */
-    real rub;  /* times f_e over a */
-    real roll; /* times f_e over a^2 */
+    real tear; /* squared motion that breaks a bridge, over (2 a)^2 */
+    real bond; /* sigma_b limit, over a */
+    real rub;  /* friction limit, over f_e / a */
+    real roll; /* rolling limit, over f_e / a^2 */
 };
 
-/* share: 1, or what a spring at its cap is cut to. */
+/* share: 1, or the fraction of its cap to which a sliding spring is cut. */
 INLINE struct plane_caps plane_caps(const struct gb_law_slip *slip, struct terms t,
                                     real share)
 {

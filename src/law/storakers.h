@@ -1,16 +1,17 @@
 #ifndef GB_LAW_STORAKERS_H
 #define GB_LAW_STORAKERS_H
 
-/* The contact laws of dies, P3 (1)-(22): Hertz, and Storakers with Hertz' unloading.  This
- * is the only place that has these formulas: beds and the laws of single contacts include
- * it after their law/real_*.h.
+/* The contact laws of dies, P3 (1)-(22): Hertz, and Storakers with Hertz' unloading.
+ * Only this file has these formulas.  Beds and the laws of single contacts include it
+ * after a law/real_*.h.
  *
- * The force is Hertz' at the elastic part y of the overlap.  On the loading curve (16)
- * means, with h_x the overlap where (2) and (16) meet,
+ * The force is Hertz' force at the elastic part y of the overlap.  With h_x the overlap
+ * where (2) and (16) are equal, the loading curve (16) is
  *     y = h_x (h/h_x)^((2+m)/3),
- * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is
- * Hertz' and y = h; the printed law uses (16) there too.  Unloading and reloading keep the
- * permanent part h - y of the deepest overlap: (19) with (20), integrated. */
+ * which needs one power of a ratio near 1 instead of two powers of h.  Below h_x Hertz'
+ * force is the smaller one and y = h; the printed law uses (16) there too.  Unloading
+ * and reloading keep the permanent part h - y of the deepest overlap: (19) with (20),
+ * integrated. */
 
 #include "law/law_hertz.h"
 
@@ -20,7 +21,7 @@ INLINE real hertz_factor(real modulus, real root_of_radius)
     return (real)(4.0 / 3.0) * modulus * root_of_radius;
 }
 
-/* (2) and (9) at the elastic part y and its root. */
+/* (2) and (9) at the elastic part y; root_of is sqrt(y). */
 INLINE real hertz_force(real factor, real y, real root_of)
 {
     return factor * y * root_of;
@@ -31,13 +32,13 @@ INLINE real hertz_slope(real factor, real root_of)
     return (real)1.5 * factor * root_of;
 }
 
-/* Power of h/h_x that y is. */
+/* Exponent of h/h_x in y. */
 INLINE real elastic_power(real exponent)
 {
     return (2 + exponent) / 3;
 }
 
-/* y on the loading curve; ratio: h/h_x, plastic: y of (16). */
+/* y on the loading curve. ratio: h/h_x; plastic: y of (16). */
 INLINE real loaded_part(bool printed, real ratio, real plastic, real h)
 {
     return selected(bit_mask(printed | (ratio > 1)), plastic, h);
@@ -49,14 +50,14 @@ INLINE real plastic_slope(real exponent, real force, real h)
     return (1 + (real)0.5 * exponent) * force / larger(h, (real)1e-300);
 }
 
-/* (6), (1): a dry contact never pulls; dashpot: the force that it takes away. */
+/* (6), (1): a dry contact never pulls. dashpot: the force to subtract. */
 INLINE real damped_force(real elastic, real dashpot)
 {
     return larger(elastic - dashpot, 0);
 }
 
-/* Largest damping that a step of central differences bears (gb_law_hertz_damping_borne);
- * late: step over GB_LAW_HERTZ_BORNE, square: squared frequency of the contact. */
+/* The limit of gb_law_hertz_damping_borne. late: step / GB_LAW_HERTZ_BORNE; square:
+ * squared frequency of the contact. */
 INLINE real borne_damping(real stiffness, real late, real square)
 {
     return stiffness / larger(late * square, (real)1e-300);
