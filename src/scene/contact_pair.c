@@ -29,8 +29,9 @@ static struct body first_body(const struct gb_params *params)
     };
 }
 
-/* The first body, except for given keys: a sigma_0 that was typed belongs to the first
- * one's yield point, and another material has a different one. */
+/* The second body: the first one, with the keys that are given for the second.  A given
+ * sigma_0 is not used if young_j or yield_j is given, because it belongs to the yield
+ * point of the first. */
 static struct body second_body(const struct gb_params *params)
 {
     struct body body = first_body(params);

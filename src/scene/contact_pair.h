@@ -8,7 +8,7 @@
 /* Two bodies in contact by the law of Hertz or Storakers: sizes, materials and
  * constants frozen from the keys, in SI units.  Source: P3 section 4. */
 struct gb_contact_pair {
-    struct gb_law_storakers law; /* law.hertz is the elastic one */
+    struct gb_law_storakers law; /* law.hertz: the elastic part */
     double radius;               /* R*, m */
     double diameter;             /* of the smaller body, m */
     double mass[2];              /* kg; INFINITY: a wall */
@@ -21,7 +21,7 @@ struct gb_contact_pair {
 bool gb_contact_pair_init(struct gb_contact_pair *pair, const struct gb_params *params,
                           struct gb_error *err);
 
-/* Critical time step (27)-(29), s, of the two on a spring of this stiffness. */
+/* Critical time step (27)-(29), s, of the lighter body on a spring of this stiffness. */
 double gb_contact_pair_critical_step(const struct gb_contact_pair *pair,
                                      double stiffness);
 

@@ -12,10 +12,10 @@
 #include "scene/path/path.h"
 #include "scene/size/sizes.h"
 
-/* sigma_b at auto, in E.  With bridges: P1's set II.  Without: P1
- * calls mu the only free parameter of such scenes, and with 0.018 E the strength, not mu,
- * would limit the friction of the finest powders (density differences at 100 MPa come out
- * a fifth too small). No shear spring carries a stress of E. */
+/* sigma_b at auto, in E.  With bridges: P1's set II.  Without bridges: no shear spring
+ * carries a stress of E, so this is no limit.  P1 calls mu the only free parameter of
+ * such scenes; with 0.018 E the strength, not mu, would limit the friction of the
+ * finest powders (density differences at 100 MPa would be a fifth too small). */
 static const double strength_bridged = 0.018, strength_unlimited = 1.0;
 
 double gb_derived_bridge_length_m(const struct gb_params *params)
@@ -88,7 +88,7 @@ double gb_derived_reference_m(const struct gb_params *params)
                : params->diameter_m;
 }
 
-/* Mean of (diameter/d)^3, or squared in 2D: what the relative density counts. */
+/* Mean of (diameter/d)^3, or squared in 2D: proportional to the solid volume. */
 static double mean_power(const struct gb_params *params)
 {
     struct gb_sizes sizes;
@@ -99,8 +99,8 @@ static double mean_power(const struct gb_params *params)
                : 1.0;
 }
 
-/* Base of the initial cell in diameters.  auto in 3D: P1's 18 d for 8000 particles at
- * density 0.24 and the same aspect ratio for other volumes. */
+/* Base of the initial cell in diameters. auto in 3D: P1's 18 d for 8000 particles at
+ * density 0.24; other volumes keep this aspect ratio. */
 static double base_edge(const struct gb_params *params, double volume)
 {
     if (params->base.relative && params->base.value == 0.0) {

@@ -3,25 +3,25 @@
 
 #include "greenbody/params.h"
 
-/* Quantities that follow from the parameters: relative values in SI, and the values of
- * "auto".  Exception: gb_derived_cell is in particle diameters. */
+/* Quantities derived from the parameters: relative values in SI units, and the values
+ * of "auto".  Exception: gb_derived_cell is in particle diameters. */
 
 /* Resolved lengths and pressures, SI. */
 double gb_derived_bridge_length_m(const struct gb_params *params);
 double gb_derived_shear_strength_pa(const struct gb_params *params);
 /* Median diameter of the log-normal law. */
 double gb_derived_median_m(const struct gb_params *params);
-/* What "d" means in values of a preset and in reduced units: particles.diameter; where a
- * quasi-static scene has sizes, their mean by number. */
+/* Meaning of "d" in preset values and reduced units: particles.diameter, or the mean
+ * diameter by number if a quasi-static scene has a size distribution. */
 double gb_derived_reference_m(const struct gb_params *params);
-/* sigma_0 of Hollomon's law; auto passes through the yield point.  Source: P3 section 4.
- */
+/* sigma_0 of Hollomon's law; auto: the curve passes through the yield point.  Source:
+ * P3 section 4. */
 double gb_derived_hollomon_pa(const struct gb_params *params);
 /* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
 double gb_derived_structure_density(const struct gb_params *params);
 
-/* Compressed axes, an enum gb_geometry: loading.geometry, or those of the first leg of
- * loading.path. */
+/* Compressed axes, an enum gb_geometry: loading.geometry, or the axes of the first leg
+ * of loading.path. */
 int gb_derived_geometry(const struct gb_params *params);
 
 /* The reduced unit of time T = sqrt(m/(E d)) = sqrt(pi rho_m d^2/(6 E)), 0.74 ps for

@@ -24,7 +24,7 @@ static bool refuse_length(const char *key, double value, const char *relation,
                         limit);
 }
 
-/* The largest size that the keys name; 0 where a distribution is not cut. */
+/* The largest size that the keys give; 0 for a distribution without an upper limit. */
 static double largest_named(const struct gb_params *params)
 {
     switch (params->distribution) {

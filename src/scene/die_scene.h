@@ -10,15 +10,15 @@
 
 /* The functions of the row `die` of scene/loading_kind.h. */
 
-/* What scenes with kind = die require beyond the ranges of their keys.  Errors:
+/* Checks the requirements of kind = die beyond the ranges of the keys.  Errors:
  * GB_ERR_INPUT naming the keys. */
 bool gb_die_scene_check(const struct gb_params *params, struct gb_error *err);
 
-/* The keys of a die in reduced units, as model->die. */
+/* Sets model->die from the keys, in reduced units. */
 void gb_die_scene_freeze(struct gb_model *model, const struct gb_params *params);
 
-/* Line `index` (0, 1, ...) of what a die carries; NULL after the last.  The text lives in
- * buffer. */
+/* Line `index` (0, 1, ...) of a description of the die scene; NULL after the last.  The
+ * text is in buffer. */
 const char *gb_die_scene_note(const struct gb_model *model, int index, char *buffer,
                               size_t size);
 

@@ -7,11 +7,12 @@
 #include "law/law_viscous.h"
 #include "scene/derived.h"
 
-/* J = m d^2 / 10, a solid sphere, also for the discs of 2D scenes.  Source: P2 (1). */
+/* Moment of inertia J = m d^2 / 10 of a solid sphere, also for the discs of 2D scenes.
+ * Source: P2 (1). */
 static const double inertia_sphere = 0.1;
 
-/* P2 fixes rate and end density: there is no pressure to stop at, and no branch that
- * could leave from one. */
+/* P2 fixes the rate and the end density, so a dynamic run cannot end at a pressure or
+ * unload from one. */
 static bool check_end(const struct gb_params *params, struct gb_error *err)
 {
     char pressure[64];
@@ -69,7 +70,7 @@ void gb_dynamic_scene_freeze(struct gb_model *model, const struct gb_params *par
     };
 }
 
-/* A reduced time as a user reads it. */
+/* Writes a reduced time in a time unit. */
 static void write_time(const struct gb_dynamics *dynamics, double reduced, char *buffer,
                        size_t size)
 {

@@ -10,15 +10,15 @@
 
 /* The functions of the row `dynamic` of scene/loading_kind.h. */
 
-/* What dynamic scenes require beyond the ranges of their keys.  Errors: GB_ERR_INPUT
- * naming the keys. */
+/* Checks the requirements of kind = dynamic beyond the ranges of the keys.  Errors:
+ * GB_ERR_INPUT naming the keys. */
 bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err);
 
-/* The dynamic keys in reduced units, as model->dynamics. */
+/* Sets model->dynamics from the keys, in reduced units. */
 void gb_dynamic_scene_freeze(struct gb_model *model, const struct gb_params *params);
 
-/* Line `index` (0, 1, ...) of what a dynamic scene carries; NULL after the last.  The
- * text lives in buffer. */
+/* Line `index` (0, 1, ...) of a description of the dynamic scene; NULL after the last.
+ * The text is in buffer. */
 const char *gb_dynamic_scene_note(const struct gb_model *model, int index, char *buffer,
                                   size_t size);
 

@@ -11,7 +11,8 @@
 #define TWO_ROOT_3  1.1547005383792515 /* 2 / sqrt 3 */
 #define FOUR_ROOT_3 2.3094010767585031 /* 4 / sqrt 3 */
 
-/* Points lie off the faces of the cell, where rounding would decide on their image. */
+/* Points avoid the faces of the cell, where rounding would decide on their periodic
+ * image. */
 static const struct gb_lattice table[] = {
     [GB_STRUCTURE_SC] = {3, 1, {1.0, 1.0, 1.0}, {{0.5, 0.5, 0.5}}},
     [GB_STRUCTURE_FCC] = {3,
@@ -67,7 +68,7 @@ static double edge_ratio(const struct gb_lattice *lattice, const int64_t cells[3
     return most / least;
 }
 
-/* Keeps the better one of two blocks. */
+/* Keeps the better of two blocks. */
 static void consider(const struct gb_lattice *lattice, int64_t x, int64_t y, int64_t z,
                      double *best, int64_t cells[3])
 {
@@ -94,7 +95,8 @@ bool gb_lattice_block(const struct gb_lattice *lattice, int64_t count, int64_t c
     }
     for (int64_t x = 1; lattice->dimension == 3 && x * x * x <= all; x++) {
         for (int64_t y = x; all % x == 0 && y * y <= all / x; y++) {
-            if (all / x % y == 0) { /* cubic cells: the order of edges is free */
+            if (all / x % y ==
+                0) { /* cubic unit cells: one order of the edges is enough */
                 consider(lattice, x, y, all / x / y, &best, cells);
             }
         }
@@ -114,7 +116,7 @@ void gb_lattice_edges(const struct gb_lattice *lattice, int64_t count, double ov
     }
 }
 
-/* The nearest count that fits, downwards or upwards. */
+/* The nearest count that fits, searching downwards (step = -1) or upwards. */
 static int64_t nearest(const struct gb_lattice *lattice, int64_t count, int step)
 {
     int64_t cells[3];

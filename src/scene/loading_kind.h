@@ -9,11 +9,11 @@
 
 struct gb_model;
 
-/* What a scene with a given scene.kind is: one row per kind.  Everything but the rows
- * themselves asks for the properties below and never for the kind.  The functions that
- * advance a scene are the rows of solve/loading/loading.h, with the same index. */
+/* Properties of each scene.kind, one row per kind.  Other code tests these properties
+ * and never the kind.  The functions that advance a scene are the rows of
+ * solve/loading/loading.h, with the same index. */
 
-/* Columns of curve.csv beside those that all runs have. */
+/* Columns of curve.csv in addition to those of all runs. */
 enum gb_curve_columns {
     GB_COLUMNS_COMMON,
     GB_COLUMNS_ENERGY, /* simulated time and energies */
@@ -23,24 +23,24 @@ enum gb_curve_columns {
 struct gb_loading_kind {
     const char *name; /* as in scene.kind */
     const char *doc;
-    unsigned normals; /* bit enum gb_normal: laws that contact.normal accepts */
+    unsigned normals; /* bits of enum gb_normal: possible values of contact.normal */
     enum gb_curve_columns columns;
     bool periodic_cell;      /* a periodic cell; else a die with walls */
-    bool plane;              /* also discs in the plane, scene.dimension = 2 */
+    bool plane;              /* also 2D, scene.dimension = 2 */
     bool single_precision;   /* the force sweep exists in single precision */
-    bool viscous_contacts;   /* contacts resist their rate of deformation (the cell's) */
+    bool viscous_contacts;   /* viscous contact forces in a periodic cell */
     bool follows_time;       /* Newton's equations; else a sequence of equilibria */
-    bool given_rate;         /* relax, compress at loading.rate, hold: the number of time
+    bool given_rate;         /* relax, compress at loading.rate, hold; the number of time
                               * steps is known beforehand, points belong to stages */
     bool changes;            /* loading.changes, and what-if runs that start from it */
     bool unloading_branches; /* loading.unload_from */
     bool paths;              /* loading.path */
-    /* What the kind requires beyond the ranges of its keys.  Errors: GB_ERR_INPUT naming
-     * the keys. */
+    /* Checks the requirements of the kind beyond the ranges of its keys.  Errors:
+     * GB_ERR_INPUT naming the keys. */
     bool (*check)(const struct gb_params *params, struct gb_error *err);
-    /* The kind's own part of the model, reduced units. */
+    /* Sets the part of the model that belongs to the kind, in reduced units. */
     void (*freeze)(struct gb_model *model, const struct gb_params *params);
-    /* Line `index` of what a scene of this kind carries, as gb_model_note. */
+    /* Line `index` of the description of a scene, as gb_model_note. */
     const char *(*note)(const struct gb_model *model, int index, char *buffer,
                         size_t size);
 };
@@ -49,21 +49,24 @@ struct gb_loading_kind {
 enum { GB_LOADING_KINDS = 3 };
 extern const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS];
 
-/* The row of a kind (enum gb_kind), or of the scene of these parameters. */
+/* The row of a kind (enum gb_kind); the row of the scene with these parameters. */
 const struct gb_loading_kind *gb_loading_kind_at(int kind);
 const struct gb_loading_kind *gb_loading_kind_of(const struct gb_params *params);
 
-/* The scene follows loading.path instead of loading.geometry, until and unload_from. */
+/* Does the scene follow loading.path instead of loading.geometry, until and
+ * unload_from? */
 bool gb_loading_kind_follows_path(const struct gb_params *params);
 
-/* GB_ERR_INPUT unless the kind's law of contact is one that it accepts. */
+/* Fails with GB_ERR_INPUT if the kind does not support the value of contact.normal. */
 bool gb_loading_kind_check_normal(const struct gb_params *params, struct gb_error *err);
 
-/* Fails with GB_ERR_INPUT for scenes without a periodic cell; what: the purpose. */
+/* Fails with GB_ERR_INPUT for scenes without a periodic cell. what: the purpose, for
+ * the message. */
 bool gb_loading_kind_check_cell(const struct gb_params *params, const char *what,
                                 struct gb_error *err);
 
-/* Names of the kinds with a property, "quasistatic or dynamic".  Returns buffer. */
+/* Writes the names of the kinds with a property, "quasistatic or dynamic".  Returns
+ * buffer. */
 char *gb_loading_kind_names(bool (*has)(const struct gb_loading_kind *kind), char *buffer,
                             size_t size);
 

@@ -1,3 +1,9 @@
+/* From the parameters to the model of a run: converts SI units to reduced units (length
+ * d, stress E, mass m), sets the constants of the contact laws, and picks the numerics
+ * that `fidelity` leaves to the program. gb_model_init calls the freeze functions of
+ * the kind of scene (loading_kind.h) and of the normal law (normal_law.h) for their
+ * parts. gb_model_note describes for the user what a scene leaves out and what was
+ * picked. */
 #include "scene/model.h"
 
 #include <math.h>
@@ -24,7 +30,7 @@ static double by_fidelity(int fidelity, double fast, double balanced, double ref
     }
 }
 
-/* predict has tolerances and strain parts that differ from those of other relaxers. */
+/* Tolerances and strain parts of predict differ from those of other relaxers. */
 static void pick_for_predict(struct gb_numerics *numerics, const struct gb_params *params,
                              bool bridges, double *part)
 {
@@ -40,7 +46,7 @@ static void pick_for_predict(struct gb_numerics *numerics, const struct gb_param
                 : (fast ? GB_UNBRIDGED_TOLERANCE_FAST : GB_UNBRIDGED_TOLERANCE_BALANCED);
 }
 
-/* Tolerance and parts of a strain step. */
+/* Picks the tolerance and the number of parts of a strain step. */
 static void pick_relaxation(struct gb_model *model, const struct gb_params *params)
 {
     struct gb_numerics *numerics = &model->numerics;
@@ -62,21 +68,22 @@ static void pick_relaxation(struct gb_model *model, const struct gb_params *para
     numerics->parts = (int)fmax(1.0, ceil(params->strain_step / most - 1e-9));
 }
 
-/* predict takes a third of the time of fire; fire is the reference. */
+/* predict takes a third of the time of fire; fire serves as the reference. */
 static const char *automatic_relaxer(const struct gb_params *params)
 {
     return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
 }
 
-/* Scenes whose sweep there is in single precision: no viscous forces, no plane, no tilt of
- * the cell. */
+/* Force sweeps in single precision exist for scenes without viscous forces, in 3D and
+ * in cells that are never tilted. */
 static bool has_single_sweep(const struct gb_model *model)
 {
     return gb_loading_kind_at(model->kind)->single_precision && model->dimension == 3 &&
            !model->sheared;
 }
 
-/* Single precision halves memory and time; P1's own relaxer is kept as printed. */
+/* Single precision halves memory and time.  P1's own relaxer stays as printed, in
+ * double. */
 static bool pick_precision(const struct gb_model *model, const struct gb_params *params)
 {
     return params->precision == GB_PRECISION_SINGLE ||
@@ -162,7 +169,7 @@ static void scale_leg(struct gb_leg *leg, double stress)
     }
 }
 
-/* The loading path, stresses over E. */
+/* Sets the loading path, with stresses over E. */
 static bool freeze_path(struct gb_model *model, const struct gb_params *params,
                         struct gb_error *err)
 {
@@ -194,8 +201,8 @@ static void freeze_loading(struct gb_model *model, const struct gb_params *param
     }
 }
 
-/* The sizes of the powder; one of them in every scene but those of
- * gb_sizes_polydisperse. */
+/* Sets the sizes of the powder.  Scenes for which gb_sizes_polydisperse is false have
+ * one size. */
 static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
                          struct gb_error *err)
 {
@@ -218,8 +225,8 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
     return true;
 }
 
-/* Largest equilibrium overlap by adhesion, over D: two of the smallest particles have it; NaN
- * when adhesion is too strong for the laws to hold. */
+/* Largest equilibrium overlap by adhesion, over D, which a pair of the smallest
+ * particles has.  NaN if adhesion is too strong for the laws to hold. */
 static double largest_equilibrium(const struct gb_model *model)
 {
     const double smallest = model->polydisperse ? model->diameter_min : 1.0;
@@ -268,7 +275,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     }
     freeze_laws(model, params);
     if (!gb_loading_kind_of(params)->periodic_cell) {
-        /* the die has no cell; its laws are frozen by its own row */
+        /* a die has no cell; its freeze function has set its laws */
         return true;
     }
     gb_derived_cell(params, model->edges);

@@ -14,34 +14,33 @@
 
 struct gb_imported;
 
-/* Which terms the force sweep of this scene carries.  The sweep contains
- * no others. */
+/* Terms of the force sweep of this scene.  The sweep computes only these. */
 struct gb_terms {
     bool attraction;
     bool bridges;
     bool friction; /* shear and pivoting caps above zero, or bridges */
-    bool plain;    /* a cohesionless law: no more than friction in shear beside it */
+    bool plain;    /* a cohesionless law: normal force and shear friction only */
 };
 
-/* Numbers under [numerics] after fidelity has filled what the preset left open. */
+/* The keys of [numerics] after fidelity has set the automatic ones. */
 struct gb_numerics {
     char relaxer[24];
     double tolerance;    /* residual, in units of tolerance_scale, of a relaxed step */
     int tolerance_scale; /* enum gb_tolerance_scale */
-    int parts;           /* equal ones in which a strain step is taken */
-    double cutoff;       /* d; attraction is dropped beyond */
+    int parts;           /* equal parts of a strain step */
+    double cutoff;       /* d; no attraction beyond */
     double skin;         /* d; margin of the neighbour list */
     int threads;
     bool single;             /* single precision in the sweep */
     int64_t max_evaluations; /* per strain step */
 };
 
-/* What a dynamic scene carries beyond a quasi-static one.  The reduced unit of time
+/* What a dynamic scene has in addition to a quasi-static one.  The reduced unit of time
  * sqrt(m/(E d)) is P2's T. */
 struct gb_dynamics {
     double viscous;         /* A over T; 0: no viscous forces */
-    double viscous_shear;   /* 1, or 0 where shear, */
-    double viscous_rolling; /* or rolling and pivoting, have no viscous partner */
+    double viscous_shear;   /* 1, or 0 if shear*/
+    double viscous_rolling; /* 1, or 0 if rolling and pivoting have no viscous force */
     double rate;            /* (1/rho) d rho/dt per reduced time */
     double relax, hold;     /* reduced times */
     double time_step;       /* reduced; 0: auto */
@@ -52,16 +51,16 @@ struct gb_dynamics {
     double inertia;         /* J, m d^2 */
 };
 
-/* A die and the stages of its run, reduced units (the time is that of dynamic scenes,
- * lengths in d). Source: P3 section 5. */
+/* A die and the stages of its run, in reduced units: time in the T of dynamic scenes,
+ * lengths in d.  Source: P3 section 5. */
 struct gb_die_scene {
     double radius;         /* of the cylinder */
-    double height;         /* where the funnel begins */
+    double height;         /* at which the funnel begins */
     double outlet;         /* radius of the funnel's opening */
-    double angle;          /* of the funnel's wall to the axis, rad */
+    double angle;          /* between the wall of the funnel and the axis, rad */
     double loose_density;  /* density of the powder placed in the funnel */
     double fill_gravity;   /* while pouring */
-    double gravity;        /* at rest and in pressing */
+    double gravity;        /* while resting and pressing */
     double gravity_ramp;   /* time from one to the other */
     double flatten_travel; /* of the punch, from its first contact */
     double ramp_time;      /* of the pressure */
@@ -69,20 +68,20 @@ struct gb_die_scene {
     bool quadratic;        /* p = p_max (t/T)^2 instead of p_max t/T */
     double record;         /* pressure between recorded points */
     double punch_mass;     /* in masses of the bed */
-    bool full_cycle;       /* unloading to rest after ejection follow the ramp */
-    double unload_time;    /* of the pressure, down to none */
+    bool full_cycle;       /* after the ramp: unloading, ejection and rest */
+    double unload_time;    /* of the pressure, down to 0 */
     double rest_time;      /* in the die, and after ejection */
     double eject_speed;
     double weld_strength; /* of cold welds; 0: none */
     double safety;        /* of the time step */
-    double time_step;     /* 0: by the critical one */
+    double time_step;     /* 0: from the critical time step */
     double inertia_scale;
     double central_radius; /* of the sphere that measures the central density */
     double second_per_time;
 };
 
-/* Frozen from gb_params: reduced units (length d, stress E, mass m), all derived
- * constants. Const during a run. */
+/* The model of a run: all constants derived from gb_params, in reduced units (length d,
+ * stress E, mass m).  Constant during a run. */
 struct gb_model {
     int kind;   /* enum gb_kind */
     int normal; /* enum gb_normal */
@@ -94,13 +93,13 @@ struct gb_model {
     int structure;                     /* enum gb_structure */
     const struct gb_imported *packing; /* in place of the structure; NULL: none */
     double r_meso;
-    double single_contact; /* share of particles that begin with one contact */
-    bool polydisperse;     /* more than one size; else the next four are 0 or 1 */
+    double single_contact; /* fraction of particles that begin with one contact */
+    bool polydisperse;     /* more than one size; if false, the next four are 0 or 1 */
     struct gb_sizes sizes; /* in m */
     double diameter_min, diameter_max; /* d; 1 */
     double mean_power;                 /* of diameters, d^3, or d^2 in 2D; 1 */
-    /* Components of contact records: 3, or 2 of discs of one size, whose laws have a sweep
-     * of their own; discs of unequal sizes take the laws of spheres with y = 0. */
+    /* Components of contact records: 3, or 2 for discs of one size, which have a sweep
+     * of their own.  Discs of unequal sizes use the laws of spheres with y = 0. */
     int record_dimension;
     struct gb_terms terms;
     bool cohesionless; /* no attraction, bridges or rods: contact.normal = hertz */
@@ -112,13 +111,14 @@ struct gb_model {
     double adhesion;    /* f_a(d), E d^2 */
     double force_floor; /* least force scale of the stopping rule, E d^2 */
     struct gb_numerics numerics;
-    bool sheared;          /* the cell is or will be tilted: double precision */
-    struct gb_path path;   /* loading path, stresses over E; no legs: the next ones */
-    bool collapse_strains; /* where a stress cannot be held, strain goes on */
+    bool sheared; /* the cell is or will be tilted: double precision */
+    struct gb_path
+        path; /* loading path, stresses over E; without legs the next members apply */
+    bool collapse_strains; /* continue by strain if a stress cannot be held */
     int geometry;          /* enum gb_geometry */
     double strain_step;
-    double until_pressure; /* E; infinity when a density ends the run */
-    double until_density;  /* 1 when a pressure ends the run */
+    double until_pressure; /* E; infinity if a density ends the run */
+    double until_density;  /* 1 if a pressure ends the run */
     double unload_from[GB_UNLOAD_MAX];
     int unload_count;
     struct gb_dynamics dynamics; /* zero in scenes without a given rate */
@@ -128,12 +128,12 @@ struct gb_model {
     double newton_per_force;     /* E d^2 in N */
 };
 
-/* Freezes checked params.  Errors: GB_ERR_INPUT naming the key. */
+/* Sets the model from checked params.  Errors: GB_ERR_INPUT naming the key. */
 bool gb_model_init(struct gb_model *model, const struct gb_params *params,
                    struct gb_error *err);
 
-/* What the scene leaves out and what fidelity picked, line `index` (0, 1, ...); NULL
- * after the last.  The text lives in buffer. */
+/* Describes what the scene leaves out and what fidelity picked: line `index` (0, 1,
+ * ...); NULL after the last.  The text is in buffer. */
 const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
                           size_t size);
 

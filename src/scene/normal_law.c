@@ -13,9 +13,9 @@ static double rod_stiffness(const struct gb_model *model, double h)
     return gb_law_rod_stiffness(&model->rod, h);
 }
 
-/* No rods, attraction, bridges or pivoting: Mindlin and Coulomb across the contact, (5) with
- * its friction only; springs of half the relative motion with (5)'s stiffness are
- * Mindlin's. */
+/* No rod term, attraction, bridges or pivoting.  Shear is Mindlin with Coulomb
+ * friction: (5) without its strength limit.  A spring of half the relative motion with
+ * the stiffness (4) is Mindlin's. */
 static void freeze_cohesionless(struct gb_model *model)
 {
     model->cohesionless = true;
@@ -28,7 +28,7 @@ static void freeze_cohesionless(struct gb_model *model)
     model->slip.motion = 0.5;
 }
 
-/* Hertz is the first term of (1). */
+/* Hertz' law is the first term of (1). */
 static void freeze_hertz(struct gb_model *model, const struct gb_params *params)
 {
     (void)params;

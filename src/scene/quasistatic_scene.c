@@ -13,8 +13,9 @@ static bool attracts(const struct gb_params *params)
            params->n_d0_cubed > 0.0;
 }
 
-/* Neither attraction nor d - r_eq without adhesion; the stiffness that turns forces into
- * displacements is that of equal spheres; the tolerances of fidelity are in mean contact
+/* Units of numerics.tolerance that a scene cannot have: without adhesion there is
+ * neither an attraction nor d - r_eq; the stiffness that turns forces into
+ * displacements assumes equal spheres; the tolerances of fidelity are in mean contact
  * forces. */
 bool gb_quasistatic_scene_check(const struct gb_params *params, struct gb_error *err)
 {
@@ -66,8 +67,8 @@ static void note_relaxer(const struct gb_model *model, char *buffer, size_t size
         numerics->single ? "single" : "double");
 }
 
-/* A cell so much higher than wide that the forces left over by the relaxer can add up to a
- * pressure that differs along its height. */
+/* Is the cell so high that the residual forces of the relaxer can add up to a pressure
+ * that varies along its height? */
 static bool is_column(const struct gb_model *model)
 {
     const double *edges = model->edges;

@@ -10,13 +10,13 @@
 
 /* The functions of the row `quasistatic` of scene/loading_kind.h. */
 
-/* Nothing beyond what all periodic cells require. */
+/* Checks units of numerics.tolerance against the scene.  Errors: GB_ERR_INPUT. */
 bool gb_quasistatic_scene_check(const struct gb_params *params, struct gb_error *err);
 
-/* Nothing beyond what all periodic cells have. */
+/* Sets nothing: quasi-static scenes have no part of the model of their own. */
 void gb_quasistatic_scene_freeze(struct gb_model *model, const struct gb_params *params);
 
-/* The relaxation; NULL after line 0.  The text lives in buffer. */
+/* Describes the relaxation; NULL after the last line.  The text is in buffer. */
 const char *gb_quasistatic_scene_note(const struct gb_model *model, int index,
                                       char *buffer, size_t size);
 

@@ -7,12 +7,12 @@
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 
-/* Does anything in the scene depend on the seed?  It does in dies and in grown structures.
- * Lattices and packings from a file are the same cell for every seed. */
+/* Does the result depend on the seed?  It does in dies and grown structures.  Lattices
+ * and packings from a file give the same cell for every seed. */
 bool gb_seed_matters(const struct gb_params *params);
 
-/* Checks a plan of several cells that differ by their seed only.  Copies of one cell would
- * have errors of zero.  Errors: GB_ERR_INPUT. */
+/* Checks a plan of several cells that differ only by their seed.  Identical cells would
+ * have an error of zero.  Errors: GB_ERR_INPUT. */
 bool gb_seed_check_cells(const struct gb_params *params, size_t cells,
                          struct gb_error *err);
 

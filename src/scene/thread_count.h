@@ -3,12 +3,12 @@
 
 #include "scene/model.h"
 
-/* Particles per thread below which a second thread costs more than it gains; above it the
- * team finds out (base/team.h). */
+/* Particles per thread below which a second thread costs more than it saves.  Above it
+ * the team measures how many threads pay off (base/team.h). */
 enum { GB_PARTICLES_PER_THREAD = 500 };
 
-/* Threads that a run may use: numerics.threads or, if that is automatic, the cores of this
- * process for which there are particles enough. */
+/* Number of threads that a run may use: numerics.threads, or if that is automatic, the
+ * available cores, limited by GB_PARTICLES_PER_THREAD. */
 int gb_thread_count(const struct gb_model *model);
 
 #endif

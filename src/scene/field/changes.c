@@ -6,13 +6,14 @@
 
 #include "scene/loading_kind.h"
 
-/* One entry: the step that it follows, and "group.key=value". */
+/* One entry: the recorded step after which it applies, and "group.key=value". */
 struct entry {
     int64_t step;
     char *assignment;
 };
 
-/* The key that is assigned, with its group or without it, if it may change; NULL: none. */
+/* The key of the assignment, with or without its group, if it may change; NULL
+ * otherwise. */
 static const struct gb_field *allowed_key(const char *assignment)
 {
     size_t count = 0;
@@ -48,7 +49,7 @@ static char *allowed_names(void)
     return g_string_free(names, FALSE);
 }
 
-/* The likely key comes before the list of those that may change. */
+/* The message suggests a likely key before it lists the keys that may change. */
 static bool refuse_key(const char *assignment, struct gb_error *err)
 {
     char *name = g_strndup(assignment, strcspn(assignment, "="));
@@ -67,7 +68,8 @@ static bool refuse_key(const char *assignment, struct gb_error *err)
     return false;
 }
 
-/* text: an entry; the message quotes the assignment alone when that is wrong. */
+/* Fails for the entry `text`.  The message quotes only the assignment if that is wrong.
+ */
 static bool refuse(const char *text, const struct entry *entry, struct gb_error *err)
 {
     if (entry->assignment == NULL) {
@@ -79,7 +81,7 @@ static bool refuse(const char *text, const struct entry *entry, struct gb_error 
     return refuse_key(entry->assignment, err);
 }
 
-/* "120 contact.mu=0.3", without blanks at its ends.  False: it is no entry. */
+/* Reads "120 contact.mu=0.3", without blanks at its ends.  False: not an entry. */
 static bool parse(const char *text, struct entry *entry)
 {
     char *rest = NULL;
@@ -95,7 +97,7 @@ static bool parse(const char *text, struct entry *entry)
     return allowed_key(rest) != NULL;
 }
 
-/* Calls take with each entry up to a step until it returns false. */
+/* Calls take with each entry up to step `last` until take returns false. */
 static bool visit(const struct gb_params *params, int64_t last,
                   bool (*take)(const struct entry *entry, void *data), void *data,
                   struct gb_error *err)
@@ -207,7 +209,7 @@ int64_t gb_changes_next(const struct gb_params *params, int64_t step)
     return next > step ? next : -1;
 }
 
-/* "mu=0.3" becomes "contact.mu=0.3" where the key is one that may change. */
+/* "mu=0.3" becomes "contact.mu=0.3" if the key may change. */
 static char *with_group(const char *assignment)
 {
     const struct gb_field *field = allowed_key(assignment);
@@ -216,7 +218,7 @@ static char *with_group(const char *assignment)
                : g_strdup_printf("%s.%s", field->group, assignment);
 }
 
-/* "mu = 0.3" is written without blanks around the sign. */
+/* Removes the blanks around '='. */
 static char *tidy(const char *text)
 {
     char **sides = g_strsplit(text, "=", 2);

@@ -4,29 +4,31 @@
 #include "greenbody/params.h"
 
 /* Parameter changes during a run (loading.changes): "120 contact.mu=0.3; 200
- * loading.geometry=isotropic", in the order of the recorded steps after which each one
- * applies.  Part of the preset, so that preset and seed repeat the run to the same bits.
+ * loading.geometry=isotropic".  Entries are in the order of the recorded steps after
+ * which they apply.  They are part of the preset, so preset and seed repeat the run
+ * exactly.
  *
- * Keys that can change leave the packing and its contact histories valid: friction,
- * attraction, bridges, and the further loading. */
+ * Only keys that keep the packing and its contact histories valid may change: friction,
+ * attraction, bridges, and the loading from then on. */
 
-/* Scenes whose runs can change: quasi-static ones.  Errors (GB_ERR_INPUT) name the entry
- * and what is accepted; also for values that do not fit the rest. */
+/* Checks the changes, which only quasi-static scenes may have.  Errors: GB_ERR_INPUT
+ * naming the entry and what is expected, also for values that do not fit the other
+ * keys. */
 bool gb_changes_check(const struct gb_params *params, struct gb_error *err);
 
-/* The parameters that hold after a recorded step: those of the preset with all changes
- * up to and including it.  params has been checked. */
+/* The parameters after a recorded step: those of the preset with all changes up to and
+ * including this step. params must be checked. */
 void gb_changes_effective(const struct gb_params *params, int64_t step,
                           struct gb_params *out);
 
-/* Whether a change follows exactly this step. */
+/* Does a change apply right after this step? */
 bool gb_changes_due(const struct gb_params *params, int64_t step);
 
-/* The first step after `step` that a change follows; -1 when there is none. */
+/* The first step after `step` with a change; -1 if there is none. */
 int64_t gb_changes_next(const struct gb_params *params, int64_t step);
 
-/* Adds entries "step key=value" for assignments "mu=0.3; loading.geometry=isotropic" (the
- * groups contact and loading may be left out).  On error params is untouched. */
+/* Adds entries "step key=value" for assignments "mu=0.3; loading.geometry=isotropic".
+ * The group contact or loading may be omitted.  On error params does not change. */
 bool gb_changes_add(struct gb_params *params, int64_t step, const char *assignments,
                     struct gb_error *err);
 

@@ -165,7 +165,7 @@ bool gb_field_valid(const struct gb_field *field, const struct gb_params *params
     case GB_FIELD_SIZES:
         return gb_size_table_check(value, NULL, NULL) &&
                gb_field_sizes_in_range(field, value);
-    case GB_FIELD_PACKING: /* the file itself: gb_imported_check_params */
+    case GB_FIELD_PACKING: /* gb_imported_check_params checks the file */
         return memchr(((const struct gb_packing_file *)value)->path, '\0',
                       sizeof((const struct gb_packing_file *)value)->path) != NULL;
     }

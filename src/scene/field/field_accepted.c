@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "scene/field/field.h"
 
-/* A list says "0 to 2", a sentence "must be between 0 and 2". */
+/* Lists contain "0 to 2", sentences "must be between 0 and 2". */
 enum style { LIST, SENTENCE };
 
 static void write_bound(const struct gb_field *field, double bound, char *buffer,

@@ -14,7 +14,7 @@ static void *member(struct gb_params *params, const struct gb_field *field)
     return (char *)params + field->offset;
 }
 
-/* What is wrong with a value; only for UNIT the message lists the units. */
+/* What is wrong with a value.  The message lists the units only for UNIT. */
 enum fault { VALUE, UNIT };
 
 static bool refuse(const struct gb_field *field, const char *text, enum fault fault,
@@ -76,8 +76,8 @@ static bool read_seed(const struct gb_field *field, const char *text, uint64_t *
     return true;
 }
 
-/* "0.008 d" or "0.1 nm".  The second is compared with the range only by gb_params_check,
- * because the diameter may change after it. */
+/* "0.008 d" or "0.1 nm".  Only gb_params_check compares a length with the range,
+ * because the diameter may still change. */
 static bool read_relative(const struct gb_field *field, const char *text,
                           struct gb_relative *out, struct gb_error *err)
 {
@@ -125,7 +125,7 @@ static bool read_text(const struct gb_field *field, const char *text, char *out,
         (field->choices && gb_field_find_choice(field, text) < 0)) {
         return refuse(field, text, VALUE, err);
     }
-    memset(out, 0, field->size); /* equal values are equal bytes */
+    memset(out, 0, field->size); /* equal texts must be equal byte by byte */
     memcpy(out, text, length);
     return true;
 }
@@ -171,7 +171,7 @@ static bool read_pressures(const struct gb_field *field, const char *text,
     for (int i = 0; parts[i] && good; i++) {
         g_strstrip(parts[i]);
         if (parts[i][0] == '\0') {
-            continue; /* GLib ends a list by ';' */
+            continue; /* GLib ends a list with ';' */
         }
         double value = 0.0;
         if (count == GB_UNLOAD_MAX) {
@@ -214,7 +214,7 @@ static bool read_sizes(const struct gb_field *field, const char *text,
     return true;
 }
 
-/* The path is kept from the root on: a run may continue from another folder. */
+/* Stores an absolute path, because the run may continue from another folder. */
 static bool read_packing(const struct gb_field *field, const char *text,
                          struct gb_params *params, struct gb_error *err)
 {
@@ -238,7 +238,7 @@ static bool read_packing(const struct gb_field *field, const char *text,
            gb_error_set(err, why.code, "%s.%s: %s", field->group, field->key, why.text);
 }
 
-/* Stores what "auto" is in memory. */
+/* Stores the value of "auto". */
 static void set_automatic(const struct gb_field *field, void *out)
 {
     if (field->type == GB_FIELD_NUMBER) {

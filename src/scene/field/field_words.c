@@ -8,7 +8,7 @@
 
 enum { EXACT = 100, SYNONYM = 80, BEGINS = 60, CONTAINS = 50, WORDS = 10 };
 
-/* alpha to omega, with the final sigma between rho and sigma, and the micro sign. */
+/* Name of a Greek letter: alpha to omega, final sigma included, and the micro sign. */
 static const char *greek_name(gunichar ch)
 {
     static const char *const names[] = {"alpha",   "beta", "gamma", "delta", "epsilon",
@@ -26,7 +26,7 @@ static const char *greek_name(gunichar ch)
     return ch >= FIRST && ch < FIRST + G_N_ELEMENTS(names) ? names[ch - FIRST] : NULL;
 }
 
-/* Lower case, letters by name, one blank between words; g_free. */
+/* Lower case, Greek letters by name, one blank between words; g_free. */
 static char *normal_form(const char *text)
 {
     char *valid = g_utf8_make_valid(text, -1);
@@ -49,7 +49,7 @@ static char *normal_form(const char *text)
     return g_strchomp(g_string_free(form, FALSE));
 }
 
-/* A word of a text begins so. */
+/* Does a word of the text begin with this? */
 static bool word_begins(const char *text, const char *begin)
 {
     for (const char *at = strstr(text, begin); at != NULL; at = strstr(at + 1, begin)) {
@@ -71,7 +71,7 @@ static bool has_synonym(const char *words, const char *wanted)
     return found;
 }
 
-/* All words of the text begin words of the description. */
+/* Is each word of `wanted` the beginning of a word of the description? */
 static bool all_begin(const char *description, const char *wanted)
 {
     char **word = g_strsplit(wanted, " ", -1);

@@ -3,11 +3,12 @@
 
 #include "greenbody/params.h"
 
-/* Parameters by what they mean: by key, symbol, synonym and words of the meaning. */
+/* Search for parameters by key, symbol, synonym and words of their meaning. */
 
-/* How near a parameter is to a text: 0: not at all; an exact key is nearest, then a
- * synonym, part of the key, and words that begin in synonyms or meaning, all of them.  Case
- * counts nowhere, a Greek letter is its name, an underscore a blank. */
+/* How well a parameter matches a text; 0: not at all.  From best to worst: the exact
+ * key, a synonym, the beginning of the key, part of the key, or words that all begin
+ * words of the synonyms or the meaning.  Case is ignored, a Greek letter equals its
+ * name, and an underscore equals a blank. */
 int gb_field_words_rank(const struct gb_field *field, const char *text);
 
 /* The only parameter with this synonym; NULL: none or several. */

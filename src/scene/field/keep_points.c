@@ -64,7 +64,7 @@ bool gb_keep_points_parse(const char *text, struct gb_keep_points *points,
     bool good = true;
     for (size_t i = 0; good && entries[i] != NULL; i++) {
         char *entry = g_strstrip(entries[i]);
-        /* a ';' at the end, or an empty text */
+        /* the end of the list after a final ';', or an empty text */
         const bool nothing = entry[0] == '\0' && entries[i + 1] == NULL;
         good = nothing || parse_entry(entry, points) || refuse(entry, err);
     }

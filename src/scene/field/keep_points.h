@@ -3,8 +3,8 @@
 
 #include "greenbody/params.h"
 
-/* At which points of a run a state is kept (output.snapshots_at): "100 MPa; 1 GPa;
- * density = 0.5; every 20", the last for each 20th recorded point. */
+/* Points of a run at which a state is kept (output.snapshots_at): "100 MPa; 1 GPa;
+ * density = 0.5; every 20".  The last one means every 20th recorded point. */
 enum { GB_KEEP_POINTS_MAX = 16 };
 
 struct gb_keep_point {
@@ -18,13 +18,13 @@ struct gb_keep_points {
     int64_t every; /* recorded points; 0: none */
 };
 
-/* Errors: GB_ERR_INPUT, naming the entry and what is accepted. */
+/* Errors: GB_ERR_INPUT naming the entry and what is expected. */
 bool gb_keep_points_parse(const char *text, struct gb_keep_points *points,
                           struct gb_error *err);
 
-/* Whether a run reaches the point: its pressure (Pa) or density, the largest so far on
- * loading, rises from before to now.  Ends of loading are points, so a density counts within
- * rounding, and a pressure of a run by legs within their tolerance. */
+/* Does a run reach the point as its largest pressure (Pa) or density on loading rises
+ * from `before` to `now`?  Loading ends at such values, so a density is compared within
+ * rounding, and a pressure of a run with legs within the tolerance of the leg's end. */
 bool gb_keep_points_reached(const struct gb_keep_point *point,
                             const struct gb_params *params, double before, double now);
 

@@ -3,9 +3,9 @@
 
 #include <stddef.h>
 
-/* "did you mean contact.mu? " for a name with few characters wrong, missing, too many or
- * exchanged, with or without its group, or for a synonym ("friction"); "" where no key is near, or several are.  Returns
- * buffer. */
+/* Writes "did you mean contact.mu? " for a mistyped key: a few characters wrong,
+ * missing, extra or exchanged, with or without its group, or a synonym ("friction").
+ * Writes "" if no key is near, or several are.  Returns buffer. */
 char *gb_nearest_key(const char *name, char *buffer, size_t size);
 
 #endif

@@ -33,7 +33,7 @@ void gb_params_init(struct gb_params *params)
     for (size_t i = 0; i < count; i++) {
         struct gb_error err;
         if (!gb_field_read(&fields[i], params, fields[i].fallback, &err)) {
-            g_assert_not_reached(); /* wrong row of the table; see test_params */
+            g_assert_not_reached(); /* wrong row; see test_params */
         }
     }
 }
@@ -83,7 +83,7 @@ static bool unknown_key(const char *group, const char *key, struct gb_error *err
     return false;
 }
 
-/* The only field whose key is the name; several: err lists them. */
+/* The only field with this key.  If several have it, err lists them. */
 static const struct gb_field *find_short(const char *name, struct gb_error *err)
 {
     GString *found = g_string_new(NULL);
@@ -99,8 +99,9 @@ static const struct gb_field *find_short(const char *name, struct gb_error *err)
     }
     if (matches == 0) {
         char meant[128];
-        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such key; %sexpected group.key, as contact.mu",
-                     name, gb_nearest_key(name, meant, sizeof meant));
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%.80s: no such key; %sexpected group.key, as contact.mu", name,
+                     gb_nearest_key(name, meant, sizeof meant));
     } else if (matches > 1) {
         gb_error_set(err, GB_ERR_INPUT, "%.80s: must be one of %s", name, found->str);
     }

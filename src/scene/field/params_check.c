@@ -15,15 +15,15 @@
 #include "scene/size/size_table.h"
 #include "scene/size/sizes.h"
 
-/* Name of the choice that a member holds. */
+/* Name of the choice stored in a member. */
 static char *choice(const struct gb_params *params, const char *group, const char *key,
                     char *buffer, size_t size)
 {
     return gb_field_write(gb_params_find(group, key), params, buffer, size);
 }
 
-/* Each value against its row: the caller may have filled the struct without
- * gb_params_set. */
+/* Checks each value against its row, because the caller may have filled the struct
+ * without gb_params_set. */
 bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err)
 {
     size_t count = 0;
@@ -143,7 +143,7 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
     return gb_loading_kind_check_normal(params, err);
 }
 
-/* Requirements of scenes in a periodic cell. */
+/* Checks the requirements of scenes in a periodic cell. */
 static bool check_periodic(const struct gb_params *params, struct gb_error *err)
 {
     return check_normal(params, err) &&

@@ -50,7 +50,7 @@ enum {
     STORAKERS = 1u << GB_NORMAL_STORAKERS
 };
 
-/* What else a scene must be to use a key. */
+/* Further conditions for a scene to use a key (.applies). */
 static bool mono(const struct gb_params *params)
 {
     return params->distribution == GB_DISTRIBUTION_MONO;
@@ -96,7 +96,7 @@ static bool bridged(const struct gb_params *params)
     return gb_derived_bridge_length_m(params) < gb_derived_reference_m(params);
 }
 
-/* Two bodies of the law command; scenes have one material. */
+/* Keys of the second body of `greenbody law`; scenes have one material. */
 static bool never(const struct gb_params *params)
 {
     (void)params;

@@ -34,7 +34,7 @@ static bool fixed(const struct gb_leg_component *component)
     return component->control == GB_LEG_STRAIN && component->value == 0.0;
 }
 
-/* Strains all axes alike. */
+/* Are all axes strained equally? */
 static bool is_isotropic(const struct gb_leg *leg)
 {
     return leg->leading < 3 && leg->component[0].control == GB_LEG_STRAIN &&

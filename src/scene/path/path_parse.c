@@ -8,8 +8,11 @@
 #include "greenbody/status.h"
 #include "scene/path/path.h"
 
-/* Reads the legs of a loading path.  A line becomes words; the functions read_... take
- * them from the left and fill the leg; a table of shorthands names the kinds of legs. */
+/* Parser of loading.path. gb_path_parse_split separates the legs, and split_words turns
+ * the text of a leg into words.  The read_... functions take words from the left and
+ * fill the leg.  A table of shorthands has the kinds of legs (uniaxial, shear, unload,
+ * ...): `set` reads what follows the first word and sets the components, `end` reads
+ * where the leg ends.  After a shorthand come optional controls ("at z = 50 MPa"). */
 
 /* The words of one leg: "shear", "xz", "to", "20", "%", "at", "z", "=", "50", "MPa". */
 enum { WORDS_MAX = 48 };
@@ -20,12 +23,12 @@ struct path_words {
     char *storage;
 };
 
-/* A leg that is being read.  The functions take words and fill the leg; on error they fill
- * err with the word and what is accepted there. */
+/* A leg that is being read.  The read functions take words and fill the leg.  On error
+ * they fill err with the word and what is expected instead. */
 struct path_reading {
     struct path_words words;
     struct gb_leg *leg;
-    const struct gb_path *before; /* the legs in front of it */
+    const struct gb_path *before; /* the earlier legs */
     int dimension;
     unsigned given; /* bits of the components that the leg has named */
     struct gb_error *err;
@@ -52,7 +55,7 @@ static char *spread(const char *text)
     return g_string_free(out, FALSE);
 }
 
-/* Errors: GB_ERR_INPUT where a leg has too many words. */
+/* Errors: GB_ERR_INPUT if the leg has too many words. */
 static bool split_words(struct path_words *words, const char *text, struct gb_error *err)
 {
     *words = (struct path_words){.storage = spread(text)};
@@ -79,13 +82,13 @@ static void free_words(struct path_words *words)
     words->storage = NULL;
 }
 
-/* The next word, "" behind the last one. */
+/* The next word, or "" after the last. */
 static const char *peek_word(const struct path_words *words)
 {
     return words->next < words->count ? words->word[words->next] : "";
 }
 
-/* Takes the next word if it is this one. */
+/* Takes the next word if it equals `word`. */
 static bool accept_word(struct path_words *words, const char *word)
 {
     const bool same = strcmp(peek_word(words), word) == 0;
@@ -93,8 +96,8 @@ static bool accept_word(struct path_words *words, const char *word)
     return same;
 }
 
-/* Takes a number with its unit, "50 MPa", "20 %", "0.2".  False: the next words are none;
- * nothing is taken then. */
+/* Takes a number with its unit: "50 MPa", "20 %", "0.2".  Returns false and takes
+ * nothing if the next words are not a quantity. */
 static bool take_quantity(struct path_words *words, enum gb_dimension dimension,
                           double *value)
 {
@@ -113,7 +116,7 @@ static bool take_quantity(struct path_words *words, enum gb_dimension dimension,
     return false;
 }
 
-/* Takes the name of a component; -1: the next word is none. */
+/* Takes the name of a component.  Returns -1 if the next word is not one. */
 static int take_component(struct path_words *words)
 {
     const char *word = peek_word(words);
@@ -129,7 +132,7 @@ static bool is_number(const char *word)
     return gb_units_number(word, &end, &value) && end != word && *end == '\0';
 }
 
-/* A unit of any dimension, or one that looks like a pressure. */
+/* Is the word a unit of any dimension, or does it look like a pressure unit? */
 static bool is_unit(const char *word)
 {
     char *one = g_strdup_printf("1 %s", word);
@@ -143,7 +146,7 @@ static bool is_unit(const char *word)
     return found;
 }
 
-/* Always false. */
+/* Fills err with the word and what is expected.  Always false. */
 static bool expected(struct path_reading *in, const char *what)
 {
     const char *word = peek_word(&in->words);
@@ -161,7 +164,7 @@ static bool expected(struct path_reading *in, const char *what)
                               "ends too early: must continue with %s", what);
 }
 
-/* A component that exists in this scene. */
+/* Reads a component that exists in this scene. */
 static bool read_component(struct path_reading *in, int *component)
 {
     const int next = in->words.next;
@@ -174,7 +177,7 @@ static bool read_component(struct path_reading *in, int *component)
                                            : "x, z or xz with scene.dimension = 2");
 }
 
-/* Marks a component as named.  Errors: named before. */
+/* Marks a component as named.  Errors: it was named before. */
 static bool mark_given(struct path_reading *in, int component)
 {
     if ((in->given >> component & 1u) != 0) {
@@ -192,7 +195,7 @@ static bool read_pressure(struct path_reading *in, double *value)
            expected(in, "a pressure with its unit, as in 50 MPa");
 }
 
-/* "0.5" or "= 0.5" */
+/* Reads "0.5" or "= 0.5". */
 static bool read_number(struct path_reading *in, double *value)
 {
     accept_word(&in->words, "=");
@@ -220,8 +223,8 @@ static bool read_stress_end(struct path_reading *in, int component,
                               gb_path_component_name(component));
 }
 
-/* "50 MPa" is the pressure that the leg raises, the shear stress of a shear; "20 %" its
- * strain. */
+/* Reads an end without a name. "50 MPa" is the pressure of the strained axes, or the
+ * shear stress of a shear leg; "20 %" is the strain. */
 static bool read_own_end(struct path_reading *in, struct gb_leg_end *end)
 {
     if (take_quantity(&in->words, GB_DIM_PRESSURE, &end->value)) {
@@ -259,7 +262,7 @@ static bool read_one_end(struct path_reading *in, struct gb_leg_end *end)
     return component >= 0 ? read_stress_end(in, component, end) : read_own_end(in, end);
 }
 
-/* "to 50 MPa", "to q/p = 0.8 or 20 %" */
+/* Reads "to 50 MPa", "to q/p = 0.8 or 20 %". */
 static bool read_ends(struct path_reading *in)
 {
     struct gb_leg *leg = in->leg;
@@ -278,7 +281,7 @@ static bool read_ends(struct path_reading *in)
     return true;
 }
 
-/* "between -1 % and 1 %" of a cycle */
+/* Reads "between -1 % and 1 %" of a cycle. */
 static bool read_reversals(struct path_reading *in)
 {
     struct gb_leg *leg = in->leg;
@@ -301,7 +304,8 @@ static bool read_reversals(struct path_reading *in)
                         "between: must be two different values of one quantity");
 }
 
-/* "x = y =" or "x = y by": bits of the components; false: neither follows them. */
+/* Reads "x = y =" or "x = y by" and collects bits of the components; none if no
+ * component is named.  False: '=' or 'by' is missing, or a component was named before. */
 static bool read_members(struct path_reading *in, unsigned *members)
 {
     for (int next = take_component(&in->words); next >= 0;
@@ -320,7 +324,7 @@ static bool read_members(struct path_reading *in, unsigned *members)
     return true;
 }
 
-/* "50 MPa", "0.5 z", "held", "by 0.5 z" */
+/* Reads "50 MPa", "0.5 z", "held", "by 0.5 z". */
 static bool read_value(struct path_reading *in, struct gb_leg_component *control)
 {
     const bool by = accept_word(&in->words, "by");
@@ -358,8 +362,8 @@ static bool set_control(struct path_reading *in, int k,
     return true;
 }
 
-/* "x = y = z = 50 MPa", "x = y = 0.5 z", "z = held", "x = y by -0.5 z"; components may be
- * left out where the leg has its own (triaxial, hold): "50 MPa". */
+/* Reads "x = y = z = 50 MPa", "x = y = 0.5 z", "z = held", "x = y by -0.5 z".  The
+ * components may be omitted if the leg has its own (triaxial, hold): "50 MPa". */
 static bool read_control(struct path_reading *in, unsigned own)
 {
     struct gb_leg_component control = {GB_LEG_STRESS, (double)NAN, -1};
@@ -378,7 +382,7 @@ static bool read_control(struct path_reading *in, unsigned own)
     return good;
 }
 
-/* "z = 50 MPa, x = y = 0.5 z"; own: bits of the components that are meant where none is
+/* Reads "z = 50 MPa, x = y = 0.5 z". own: bits of the components that apply if none is
  * named. */
 static bool read_controls(struct path_reading *in, unsigned own)
 {
@@ -390,7 +394,7 @@ static bool read_controls(struct path_reading *in, unsigned own)
     return true;
 }
 
-/* "at z = 50 MPa", or nothing */
+/* Reads "at z = 50 MPa", or nothing. */
 static bool read_at(struct path_reading *in, unsigned own)
 {
     return !accept_word(&in->words, "at") || read_controls(in, own);
@@ -408,7 +412,8 @@ static void hold(struct gb_leg *leg, int component, double stress)
         (struct gb_leg_component){GB_LEG_STRESS, stress, component};
 }
 
-/* What moves, and what is held unless `at` says otherwise. */
+/* The axes other than the leading one.  A shorthand holds them unless `at` gives other
+ * controls. */
 
 static unsigned lateral(const struct path_reading *in)
 {
@@ -429,7 +434,7 @@ static void hold_members(struct path_reading *in, unsigned members, double stres
     }
 }
 
-/* An axis, z when none is named. */
+/* Reads an axis; z if none is named. */
 static bool read_axis(struct path_reading *in)
 {
     const int next = in->words.next;
@@ -493,7 +498,7 @@ static bool set_shear(struct path_reading *in, unsigned *own)
         return false;
     }
     if (component < 3) {
-        in->words.next--; /* the message names it */
+        in->words.next--; /* so that the message names this word */
         return expected(in, in->dimension == 3 ? "xy, xz or yz" : "xz");
     }
     lead(in->leg, component);
@@ -523,7 +528,7 @@ static bool set_radial(struct path_reading *in, unsigned *own)
     return true;
 }
 
-/* "strain z = 1, x = -0.5 to 5 %": the first component leads. */
+/* Reads "strain z = 1, x = -0.5 to 5 %".  The first component leads. */
 static bool set_strain(struct path_reading *in, unsigned *own)
 {
     (void)own;
@@ -553,8 +558,8 @@ static bool moves(const struct gb_leg_component *component)
     return component->control != GB_LEG_STRAIN || component->value != 0.0;
 }
 
-/* The axis that leads the unloading of a leg: one that strain moved, or one whose stress it
- * held; -1: none. */
+/* The axis that leads the unloading of a leg: an axis moved by strain, or else one
+ * whose stress was held; -1: none. */
 static int unloaded_axis(const struct gb_leg *last)
 {
     int axis = -1;
@@ -568,8 +573,8 @@ static int unloaded_axis(const struct gb_leg *last)
     return axis;
 }
 
-/* Axes that strain moved move back alike; held stresses fall in proportion; axes of fixed
- * width stay, like the walls of a die. */
+/* Reverses a leg.  Axes moved by strain return in the same proportion, held stresses
+ * fall in proportion, and fixed axes stay fixed, like the walls of a die. */
 static void reverse(struct gb_leg *leg, const struct gb_leg *last, int leading)
 {
     const double scale = last->component[leading].control == GB_LEG_STRAIN
@@ -637,7 +642,7 @@ static bool end_unload(struct path_reading *in)
     return true;
 }
 
-/* THE table of shorthands. */
+/* The table of shorthands. */
 static const struct shorthand {
     const char *word, *usage, *doc;
     bool (*set)(struct path_reading *in, unsigned *own);
@@ -722,7 +727,7 @@ static bool read_leg(struct path_reading *in)
     if (cycle && leg->leading < 0) {
         return gb_error_set(in->err, GB_ERR_INPUT, "cycle: must be of a leg that moves");
     }
-    const bool holds = shorthand->end == end_steps; /* what is held stands before */
+    const bool holds = shorthand->end == end_steps; /* controls before the end */
     const bool named = accept_word(&in->words, "at") ||
                        (holds && (peek_word(&in->words)[0] != '\0' &&
                                   !g_ascii_isdigit(peek_word(&in->words)[0])));
@@ -789,7 +794,7 @@ char **gb_path_parse_split(const char *text)
     for (int i = 0; phrases[i] != NULL; i++) {
         const bool last = phrases[i + 1] == NULL;
         if (g_strstrip(phrases[i])[0] == '\0' && (last || legs->len == 0)) {
-            g_free(phrases[i]); /* GLib ends a list by ';' */
+            g_free(phrases[i]); /* GLib ends a list with ';' */
         } else {
             g_ptr_array_add(legs, phrases[i]);
         }
