@@ -6,15 +6,15 @@
 #include "base/alloc.h"
 #include "base/units.h"
 
-/* Chunk k holds FIRST_CHUNK << k points and is never moved or freed before the curve:
- * pointers of readers stay valid while points are appended.  The chunks double: 32 of
- * them are more points than memory can hold. */
+/* Chunk k has FIRST_CHUNK << k points.  It is not moved or freed before the curve, so
+ * pointers of readers stay valid while points are appended. 32 chunks have room for
+ * more points than memory can hold. */
 enum { FIRST_CHUNK = 256, CHUNKS = 32 };
 
 struct gb_curve {
     struct gb_point *chunk[CHUNKS];
-    /* Released after the point and its chunk are written, acquired by readers: the points
-     * below the count are visible with it. */
+    /* Stored with release order after the point and its chunk, and loaded with acquire
+     * order by readers: all points below the count are then visible. */
     _Atomic size_t count;
 };
 
@@ -106,7 +106,7 @@ char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t si
     char pressure[48];
     gb_units_format_short(point->branch_from_pa, GB_DIM_PRESSURE, 6, pressure,
                           sizeof pressure);
-    /* one word, so that the column needs no quotes: "100 MPa" becomes "100MPa" */
+    /* one word, so that the column needs no quotes: "100MPa" */
     char *to = pressure;
     for (const char *from = pressure; *from != '\0'; from++) {
         if (*from != ' ') {

@@ -12,8 +12,8 @@
 #include "scene/derived.h"
 #include "scene/path/path.h"
 
-/* ",value" with the fewest digits that read back the same; only "," where there is none.
- */
+/* Appends ",value" with the fewest digits that read back the same; a number that is not
+ * finite becomes an empty cell. */
 static void append_number(GString *row, double value)
 {
     char text[GB_NUMBER_MAX];
@@ -52,7 +52,7 @@ static const char tensor_note[] =
     "to fyz fabric of the contacts; anisotropies of the fabric of all, bridged, tensile "
     "contacts and weighted by force; leg of loading.path\n";
 
-/* By enum gb_curve_columns: comments of the head of curve.csv. */
+/* Comments at the head of curve.csv, by enum gb_curve_columns. */
 static const struct {
     const char *scene, *columns;
 } notes[] = {
@@ -73,7 +73,7 @@ static const struct {
          die_note},
 };
 
-/* The row of the table is a column, or several, of this kind of scene. */
+/* Does the row of the table describe columns of this kind of scene? */
 static bool has_columns(const struct gb_point_column *row, enum gb_curve_columns scene)
 {
     return row->columns != NULL && (row->scenes >> scene & 1U) != 0;
@@ -136,7 +136,8 @@ GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns sc
     return line;
 }
 
-/* Branch of a row by its name; unloading branches as the preset lists them. */
+/* Finds a branch by its name in a row; the pressures of unloading branches come from
+ * the preset. */
 static bool find_branch(const char *name, const struct gb_params *params,
                         struct gb_point *point)
 {
@@ -159,14 +160,14 @@ static bool find_branch(const char *name, const struct gb_params *params,
     return false;
 }
 
-/* A column of the file and the number of a point that it holds. */
+/* A column of the file and the member of struct gb_point that it sets. */
 struct column {
     const struct gb_point_column *row;
     size_t k;
-    const double *values; /* by row of the file; NULL: the file lacks it */
+    const double *values; /* by row of the file; NULL: no such column */
 };
 
-/* Columns of every number of a point; g_array_free. */
+/* The columns of all members of a point; g_array_free. */
 static GArray *find_columns(const struct gb_table *table)
 {
     GArray *columns = g_array_new(FALSE, FALSE, sizeof(struct column));

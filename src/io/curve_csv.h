@@ -15,8 +15,8 @@ GString *gb_curve_csv_head(const struct gb_params *params);
 /* The row of a point, with its newline; g_string_free. */
 GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns scene);
 
-/* Appends the rows of a run directory that the curve does not have yet, but not an
- * incomplete last row.  Members without a column in the file are NaN, whole ones 0. */
+/* Appends the rows of a run directory that the curve lacks, except an incomplete last
+ * row.  Members without a column in the file become NaN, integers 0. */
 bool gb_curve_csv_read(const char *directory, const struct gb_params *params,
                        struct gb_curve *curve, struct gb_error *err);
 

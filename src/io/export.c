@@ -17,9 +17,9 @@
 #include "io/status_json.h"
 #include "pack/cell/cell.h"
 
-/* Several states in a format that has one: numbered files, and a list of them that
- * ParaView opens as one.  "run.vtkhdf" stands for run-0000.vtkhdf, run-0001.vtkhdf, ...
- * and run.vtkhdf.series. */
+/* For formats with one state per file: numbered files, and a list that ParaView opens
+ * as one series. "run.vtkhdf" becomes run-0000.vtkhdf, run-0001.vtkhdf, ... and
+ * run.vtkhdf.series. */
 
 char *gb_export_series_name(const char *path, int64_t index)
 {
@@ -74,7 +74,7 @@ bool gb_export_series_put_list(const char *path, const int64_t *steps, int64_t c
     return done;
 }
 
-/* Shared by the formats: numbers, and what a contact is. */
+/* Parts that the formats share: numbers, and the data of a contact. */
 
 void gb_export_vectors(const struct gb_export_frame *frame,
                        struct gb_export_vector vectors[GB_EXPORT_VECTORS])
@@ -257,7 +257,7 @@ const struct gb_export_format *gb_export_find(const char *name, struct gb_error 
     return found;
 }
 
-/* T = sqrt(m/(E d)) in ns; files of earlier versions do not name it. */
+/* T = sqrt(m/(E d)) in ns, computed if the file does not have it. */
 static double unit_time(const struct gb_state *state, double density_kg_m3)
 {
     return 1e9 * (isfinite(state->second_per_time)

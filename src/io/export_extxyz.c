@@ -2,7 +2,7 @@
 
 #include "io/export.h"
 
-/* Edges of the cell as rows: a = (x, 0, 0), b = (xy, y, 0), c = (xz, yz, z). */
+/* Cell vectors as rows: a = (x, 0, 0), b = (xy, y, 0), c = (xz, yz, z). */
 static void add_lattice(const struct gb_export_frame *frame, GString *text)
 {
     const double *cell = frame->state->cell, *tilt = frame->state->tilt;

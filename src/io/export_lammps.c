@@ -8,7 +8,8 @@ static bool is_tilted(const struct gb_state *state)
     return state->tilt[0] != 0.0 || state->tilt[1] != 0.0 || state->tilt[2] != 0.0;
 }
 
-/* Bounds of the box as a dump has them: a tilted cell within the box around it. */
+/* Bounds of the box as in a LAMMPS dump: a tilted cell has the bounds of the box around
+ * it. */
 static void add_bounds(const struct gb_export_frame *frame, GString *text)
 {
     const struct gb_state *state = frame->state;
@@ -112,7 +113,7 @@ static void add_data_head(const struct gb_export_frame *frame, GString *text)
     g_string_append(text, "\nAtoms # sphere\n\n");
 }
 
-/* Of scenes with time: "Velocities" of atom_style sphere. */
+/* Section "Velocities" of atom_style sphere, for scenes with time. */
 static void add_velocities(const struct gb_export_frame *frame, GString *text)
 {
     struct gb_export_vector all[GB_EXPORT_VECTORS];
@@ -133,7 +134,7 @@ static void add_velocities(const struct gb_export_frame *frame, GString *text)
     }
 }
 
-/* Density in attograms per nm^3; 1e-3 of g/cm3. */
+/* Densities are in attograms per nm^3; this is 1e-3 times g/cm3. */
 void gb_export_lammps_data(const struct gb_export_frame *frame, GString *particles,
                            GString *contacts)
 {

@@ -1,5 +1,5 @@
-/* VTKHDF 1.0, UnstructuredGrid: read by ParaView 5.10 and VTK 9.1 on; h5py reads it as any
- * HDF5 file.  Source: VTK, "VTKHDF File Format". */
+/* VTKHDF 1.0, UnstructuredGrid, for ParaView from 5.10 and VTK from 9.1; h5py reads it
+ * like any HDF5 file.  Source: VTK, "VTKHDF File Format". */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -14,7 +14,7 @@ enum {
 
 #define ROOT "/VTKHDF/"
 
-/* A file under construction; the first failure is kept. */
+/* A file being written.  It keeps the first failure. */
 struct vtk {
     struct gb_hdf *file;
     struct gb_error *err;
@@ -28,7 +28,7 @@ static void put(struct vtk *vtk, const char *name, enum gb_hdf_type type, int64_
     vtk->good = vtk->good && gb_hdf_put_array(vtk->file, &array, data, vtk->err);
 }
 
-/* rows x columns numbers, scratch of the caller. */
+/* Scratch memory for rows x columns numbers, until the next call. */
 static double *numbers(struct vtk *vtk, int64_t rows, int columns)
 {
     double *array =
@@ -38,7 +38,7 @@ static double *numbers(struct vtk *vtk, int64_t rows, int columns)
     return array;
 }
 
-/* Points 0, 1, 2 ... in cells of `each`, all of one type. */
+/* Writes cells of `each` points 0, 1, 2, ..., all of one type. */
 static void put_cells(struct vtk *vtk, int64_t cells, int each, uint8_t type)
 {
     const int64_t points = cells * each;
@@ -65,7 +65,7 @@ static void put_cells(struct vtk *vtk, int64_t cells, int each, uint8_t type)
     gb_alloc_free(types);
 }
 
-/* Cell (edges as rows), density, pressure and seed; provenance as a text. */
+/* Writes the cell (edges as rows), density, pressure, seed and provenance as text. */
 static void put_field(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     const struct gb_state *state = frame->state;
@@ -98,7 +98,7 @@ static void put_positions(struct vtk *vtk, const struct gb_export_frame *frame)
     gb_alloc_free(points);
 }
 
-/* Diameters; stresses in the order of VTK: xx, yy, zz, xy, yz, xz. */
+/* Writes diameters, and stresses in the order of VTK: xx, yy, zz, xy, yz, xz. */
 static void put_particle_data(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     static const int order[TENSOR] = {0, 1, 2, 3, 5, 4};
@@ -145,7 +145,7 @@ static void write_particles(struct vtk *vtk, const struct gb_export_frame *frame
     put_vectors(vtk, frame);
 }
 
-/* A line from each first particle to the nearest image of the second. */
+/* Writes a line from each first particle to the nearest image of the second. */
 static void put_branches(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     const struct gb_state *state = frame->state;
@@ -163,7 +163,7 @@ static void put_branches(struct vtk *vtk, const struct gb_export_frame *frame)
     gb_alloc_free(points);
 }
 
-/* A number of each contact. */
+/* A number of a contact, by column. */
 static double scalar_of(const struct gb_export_contact *contact, int column)
 {
     const double values[] = {contact->normal, contact->overlap, contact->shear,
@@ -171,7 +171,7 @@ static double scalar_of(const struct gb_export_contact *contact, int column)
     return values[column];
 }
 
-/* Bridges and particles of the lines. */
+/* Writes bridges and particles of the lines. */
 static void put_pairs(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     const struct gb_state *state = frame->state;
@@ -195,7 +195,7 @@ static void put_pairs(struct vtk *vtk, const struct gb_export_frame *frame)
     gb_alloc_free(particles);
 }
 
-/* Columns of the lines, as far as the state has them. */
+/* Writes the columns of the lines that the state has. */
 static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     static const struct {
@@ -232,7 +232,7 @@ static void write_contacts(struct vtk *vtk, const struct gb_export_frame *frame)
     put_contact_data(vtk, frame);
 }
 
-/* Groups made here have no times: equal states make equal files. */
+/* Objects are written without times, so equal states make equal files. */
 static bool write_file(const struct gb_export_frame *frame, const char *data,
                        void (*write)(struct vtk *vtk,
                                      const struct gb_export_frame *frame),

@@ -122,7 +122,8 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
     return true;
 }
 
-/* What the system tells of a process behind its name: " S 1 2 ..." in line; NULL: nothing. */
+/* Reads /proc/PID/stat and returns the text after the process name, " S 1 2 ..."; NULL
+ * if there is none. */
 static const char *read_stat(long long pid, char *line, int size)
 {
     char *path = g_strdup_printf("/proc/%lld/stat", pid);
@@ -133,11 +134,11 @@ static const char *read_stat(long long pid, char *line, int size)
         fclose(stat_file);
     }
     g_free(path);
-    const char *name_end = strrchr(line, ')'); /* a name may hold ") Z" */
+    const char *name_end = strrchr(line, ')'); /* a name may contain ") Z" */
     return name_end != NULL ? name_end + 1 : NULL;
 }
 
-/* A process that has ended and whose parent has not asked for its status. */
+/* Is the process a zombie: ended, but not yet waited for by its parent? */
 static bool is_zombie(long long pid)
 {
     char line[512];
@@ -148,7 +149,7 @@ static bool is_zombie(long long pid)
 bool gb_follow_engine_detached(const struct gb_follow_engine *engine)
 {
     char line[512];
-    int terminal = 0; /* the fifth behind the name */
+    int terminal = 0; /* the fifth field after the name */
     const char *told = engine->here && engine->pid > 1
                            ? read_stat(engine->pid, line, sizeof line)
                            : NULL;
@@ -163,8 +164,9 @@ bool gb_follow_engine_gone(const struct gb_follow_engine *engine)
             is_zombie(engine->pid));
 }
 
-/* Has the process that directory open?  Every engine has, for its lock.  The number in a
- * file alone is not enough to end a process: it may belong to another program by now. */
+/* Does the process have this directory open, as every engine does for its lock?  The
+ * process id in a file is not enough to end a process, because another program may have
+ * it by now. */
 static bool works_in(long long pid, const char *directory)
 {
     struct stat wanted;

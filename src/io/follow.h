@@ -14,26 +14,27 @@
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err);
 
-/* The process that computes the run. */
+/* The process that computes a run. */
 struct gb_follow_engine {
     long long pid;
     bool here; /* on this machine */
 };
 
-/* Reads status.json.  It does not show whether the engine still runs: the lock of the
+/* Reads status.json.  It does not tell whether the engine still runs; the lock of the
  * directory does (gb_rundir_busy). */
 bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
                       struct gb_follow_engine *engine, struct gb_error *err);
 
-/* The process of that number has ended, on this machine; false where that cannot be told. */
+/* Has the process ended, on this machine?  False if this cannot be determined. */
 bool gb_follow_engine_gone(const struct gb_follow_engine *engine);
 
-/* The process has no controlling terminal: it was closed, or there never was one; false
- * where that cannot be told. */
+/* Does the process have no controlling terminal, because it was closed or never
+ * existed?  False if this cannot be determined. */
 bool gb_follow_engine_detached(const struct gb_follow_engine *engine);
 
-/* Asks the engine of a run under way to stop with a checkpoint.  Errors: GB_ERR_INPUT
- * when it is on another machine, or not the process that status.json names. */
+/* Asks the engine of an active run to write a checkpoint and stop.  Errors:
+ * GB_ERR_INPUT if it is on another machine or is not the process that status.json
+ * names. */
 bool gb_follow_request_stop(const char *directory, struct gb_error *err);
 
 #endif

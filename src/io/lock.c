@@ -13,7 +13,8 @@
 
 enum { HOLDER_BYTES = 400 };
 
-/* Those that ask share the lock for a moment, which is no holder to others that ask. */
+/* Does a process hold the lock?  Queries take a shared lock for a moment, so that they
+ * do not mistake each other for a holder. */
 static bool has_holder(int file)
 {
     if (flock(file, LOCK_SH | LOCK_NB) != 0) {
@@ -31,8 +32,8 @@ static int open_to_ask(const char *folder, const char *name)
     return file;
 }
 
-/* A holder removes the file before it ends the lock: what was opened before that is a lock
- * of nothing. */
+/* Is the open file still the one in the folder?  A holder removes the file before it
+ * unlocks, so a file that was opened before may be a removed one. */
 static bool is_current(int folder, const char *name, int file)
 {
     struct stat ours, named;
@@ -53,7 +54,7 @@ static int lock_file(int folder, const char *name)
         bool locked = true;
         while (locked && flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             locked = !has_holder(file);
-            (void)sched_yield(); /* to those that only ask */
+            (void)sched_yield(); /* lets queries finish */
         }
         if (locked && is_current(folder, name, file)) {
             return file;
@@ -99,7 +100,7 @@ void gb_lock_release(struct gb_lock *lock)
     if (lock->file >= 0) {
         if (lock->owner == getpid()) {
             (void)unlinkat(lock->folder, lock->name, 0);
-            (void)flock(lock->file, LOCK_UN); /* a child that inherited it keeps none */
+            (void)flock(lock->file, LOCK_UN); /* also for children that inherited it */
         }
         close(lock->file);
     }

@@ -31,7 +31,7 @@ static void *no_such(const char *name, char **known, struct gb_error *err)
     return NULL;
 }
 
-/* Names differ from file names only in case. */
+/* Finds a material whose name differs only in case. */
 static char *find_any_case(const char *name, struct gb_error *err)
 {
     char **known = gb_preset_folders_list_materials();
@@ -51,7 +51,7 @@ char *gb_material_path(const char *name_or_path, struct gb_error *err)
     const bool path = strchr(name_or_path, '/') != NULL ||
                       (g_str_has_suffix(name_or_path, ".ini") && is_file(name_or_path));
     char *found = path ? NULL : gb_preset_folders_find_material(name_or_path);
-    if (path) { /* an error follows from opening it */
+    if (path) { /* opening it reports the error */
         return g_strdup(name_or_path);
     }
     return found != NULL ? found : find_any_case(name_or_path, err);
@@ -89,7 +89,7 @@ static void copy_group(struct gb_params *to, const struct gb_params *from)
     }
 }
 
-/* Where a name stands as a word of a title, in either case; NULL: nowhere. */
+/* Finds a name as a word of a title, in any case; NULL: not found. */
 static const char *find_word(const char *title, const char *name)
 {
     const size_t length = strlen(name);
@@ -103,7 +103,7 @@ static const char *find_word(const char *title, const char *name)
     return NULL;
 }
 
-/* A title that names the material before names the new one. */
+/* Replaces the name of the previous material in the title. */
 static void rename_title(struct gb_params *params, const char *before)
 {
     const char *word = find_word(params->title, before);

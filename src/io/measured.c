@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 
-/* A column and what turns its numbers into SI. */
+/* A column and the factor that converts it to SI. */
 struct quantity {
     char name[48];
     const double *value, *error; /* error may be NULL */
@@ -68,8 +68,8 @@ static bool check_row(const struct gb_table *table, size_t row, const struct qua
     return true;
 }
 
-/* Densest packings of spheres have 0.74, and pressing flattens contacts; pressures as in
- * loading.until. */
+/* Upper limit of densities: pressing flattens contacts, so 0.74 of the densest sphere
+ * packing can be exceeded.  Pressures have the limits of loading.until. */
 static const double density_most = 1.0;
 static const double pressure_most_pa = 1e12;
 

@@ -14,7 +14,7 @@
 #define COLUMNS(names, unit_in_si) .columns = names, .si = unit_in_si
 #define KEPT(name, unit_of_item, of)                                                     \
     .item = name, .unit = unit_of_item, .kept = GB_POINT_##of
-/* Successive rows of one name share an item. */
+/* Successive rows with one item name share the item. */
 #define TOGETHER(name, of) KEPT(name, "SI", of)
 #define STATE(name)        .state = name
 
@@ -152,7 +152,7 @@ void gb_point_columns_clear(struct gb_point *point)
     }
 }
 
-/* Rows of the item that begins at row `first`, and how many numbers they have. */
+/* Number of rows that share the item of row `first`, and their total number of values. */
 static size_t rows_of(size_t first, int *numbers)
 {
     size_t end = first;
@@ -196,7 +196,7 @@ bool gb_point_columns_save(const struct gb_point *point, const char *prefix,
             memcpy(to, (const char *)point + table[k].offset, size_of(&table[k]));
             to += size_of(&table[k]);
         }
-        /* the sign of 0/0 is the compiler's choice: a missing value has no sign */
+        /* missing values must not differ in sign: compilers may compute 0/0 as -NaN */
         for (int k = 0; row->type == 'd' && k < numbers; k++) {
             double *value = (double *)item->data + k;
             *value = isnan(*value) ? (double)NAN : *value;

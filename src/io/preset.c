@@ -1,3 +1,8 @@
+/* Preset files.  The first part indexes the text of a key file: the place of every key
+ * (gb_preset_lines_...).  Reading sets the parameters key by key and reports errors
+ * with file and line.  Saving edits the original text, so that comments, order and
+ * unknown keys survive: changed values are replaced in place, and missing keys are
+ * inserted at the end of their group. */
 #include "io/preset.h"
 
 #include <errno.h>
@@ -18,7 +23,7 @@
 #include "io/text_file.h"
 #include "scene/size/size_table.h"
 
-/* One line of the text with blanks and carriage return cut off. */
+/* One line of the text, trimmed of blanks and carriage return. */
 struct piece {
     const char *start, *stop; /* trimmed */
     int line;
@@ -63,7 +68,7 @@ static bool take_group(struct scanner *scanner, const struct piece *piece,
     return true;
 }
 
-/* GKeyFile would take the last of two equal keys silently. */
+/* Fails for a duplicate key, of which GKeyFile would silently take the last. */
 static bool take_once(struct scanner *scanner, const struct piece *piece, const char *key,
                       struct gb_error *err)
 {
@@ -177,8 +182,8 @@ const struct gb_key_line *gb_preset_lines_find(const struct gb_key_lines *lines,
     return NULL;
 }
 
-/* Offset at which a new key of the group goes: behind its last key or its header; text of
- * `length` bytes ends there when the group does not exist. */
+/* Offset at which a new key of the group is inserted: after its last key or its header.
+ * If the group does not exist, `length`. */
 static size_t key_lines_group_end(const struct gb_key_lines *lines, const char *group,
                                   size_t length)
 {
@@ -190,10 +195,10 @@ static size_t key_lines_group_end(const struct gb_key_lines *lines, const char *
     return length;
 }
 
-/* A preset is a page of text; more is a mistake or an attack. */
+/* Limit of the size of a file.  A preset is a page of text. */
 enum { PRESET_BYTES_MAX = 1 << 20 };
 
-/* Written by editors of other systems in front of UTF-8. */
+/* Some editors write this before UTF-8 text. */
 static const char byte_order_mark[] = "\xef\xbb\xbf";
 
 struct gb_preset {
@@ -203,7 +208,7 @@ struct gb_preset {
     struct gb_key_lines lines;
 };
 
-/* The user's mistake, or the machine's trouble? */
+/* GB_ERR_INPUT if the user can correct the error, else GB_ERR_MACHINE. */
 static enum gb_status code_of(int number)
 {
     const bool input = number == ENOENT || number == ENOTDIR || number == EISDIR ||
@@ -216,7 +221,7 @@ static bool fail_errno(const char *path, int number, struct gb_error *err)
     return gb_error_set(err, code_of(number), "%s: %s", path, g_strerror(number));
 }
 
-/* Reads at most limit + 1 bytes, so that endless files end. */
+/* Reads at most limit + 1 bytes, so that reading ends for endless files. */
 static bool read_some(int file, GString *text, size_t limit)
 {
     char chunk[16384];
@@ -234,7 +239,8 @@ static bool read_some(int file, GString *text, size_t limit)
     return true;
 }
 
-/* One in a folder, where reading would wait for a writer; pipes of a shell have theirs. */
+/* Is the file a named pipe in a folder?  Reading one would wait for a writer; pipes of
+ * the shell are allowed. */
 static bool is_named_pipe(int file)
 {
     struct stat info;
@@ -254,7 +260,7 @@ static bool read_file(const char *path, GString *text, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT, "%s: is a named pipe; expected: a file",
                             path);
     }
-    (void)fcntl(file, F_SETFL, 0); /* blocks again */
+    (void)fcntl(file, F_SETFL, 0); /* blocking again */
     const bool good = read_some(file, text, PRESET_BYTES_MAX);
     const int number = errno;
     close(file);
@@ -284,14 +290,14 @@ static bool is_known_group(const char *group)
     return false;
 }
 
-/* Names of files are relative to the folder of their preset. */
+/* Is the value a file name?  These are relative to the folder of the preset. */
 static bool names_file(const struct gb_field *field, const char *value)
 {
     return (field->type == GB_FIELD_SIZES && gb_size_table_is_path(value)) ||
            (field->type == GB_FIELD_PACKING && *value != '\0');
 }
 
-/* A value as read from a preset at path. */
+/* Sets a field from a value in a preset at path. */
 static bool set_value(struct gb_params *params, const struct gb_field *field,
                       const char *value, const char *path, struct gb_error *err)
 {
@@ -306,7 +312,7 @@ static bool set_value(struct gb_params *params, const struct gb_field *field,
     return good;
 }
 
-/* One key of the file into params; packing: the one that names a packing, or another. */
+/* Sets one key of the file. packing selects keys that name a packing, or all others. */
 static bool apply_line(struct gb_preset *preset, GKeyFile *file, bool packing,
                        const struct gb_key_line *line, struct gb_error *err)
 {
@@ -325,7 +331,7 @@ static bool apply_line(struct gb_preset *preset, GKeyFile *file, bool packing,
                      line->key);
     } else if (field) {
         good = set_value(&preset->params, field, value, preset->path, &why);
-    } else { /* its error names the keys that exist */
+    } else { /* unknown key: the error lists the keys */
         char *text = g_strconcat(line->group, ".", line->key, "=", value, NULL);
         good = gb_params_assign(&preset->params, text, &why);
         g_free(text);
@@ -346,7 +352,7 @@ static bool apply(struct gb_preset *preset, struct gb_error *err)
         gb_error_set(err, GB_ERR_INPUT, "%s: %s", preset->path, trouble->message);
         g_error_free(trouble);
     }
-    /* a packing first: it sets count and diameter, which other keys may set again */
+    /* packings first: they set count and diameter, which other keys may change */
     for (size_t i = 0; i < 2 * preset->lines.count && good; i++) {
         const bool packing = i < preset->lines.count;
         good = apply_line(preset, file, packing,
@@ -380,7 +386,8 @@ void gb_preset_destroy(struct gb_preset *preset)
     g_free(preset);
 }
 
-/* Complete presets of version 0.1 would give another packing: its random numbers are gone. */
+/* Rejects complete presets of version 0.1, whose random numbers would now give another
+ * packing. */
 static bool check_version(const char *path, const char *text, struct gb_error *err)
 {
     return !g_str_has_prefix(text, "# greenbody 0.1.") ||
@@ -404,7 +411,7 @@ static bool load_path(struct gb_preset *preset, const char *path, struct gb_erro
            apply(preset, err);
 }
 
-/* The names of all folders and presets would be longer than a message. */
+/* Lists only a part of the folders and presets, which can be longer than a message. */
 static void refuse_name(const char *name, struct gb_error *err)
 {
     enum { NAME_BYTES = 80, TEXT_BYTES = 60, PRESETS_BYTES = 80 };
@@ -425,7 +432,8 @@ static void refuse_name(const char *name, struct gb_error *err)
     g_strfreev(known);
 }
 
-/* Path to read for what the user typed (g_free), or NULL with err. */
+/* Finds the path for a name or path given by the user (g_free).  NULL and err: not
+ * found. */
 static char *resolve(const char *name, struct gb_error *err)
 {
     if (g_file_test(name, G_FILE_TEST_EXISTS) && !g_file_test(name, G_FILE_TEST_IS_DIR)) {
@@ -433,7 +441,7 @@ static char *resolve(const char *name, struct gb_error *err)
     }
     char *path = gb_preset_folders_find(name);
     if (!path && (strchr(name, '/') || g_file_test(name, G_FILE_TEST_EXISTS))) {
-        path = g_strdup(name); /* the error follows from opening it */
+        path = g_strdup(name); /* opening it reports the error */
     }
     if (!path) {
         refuse_name(name, err);
@@ -487,9 +495,9 @@ const char *gb_preset_other_group(const struct gb_preset *preset, const char *gr
     return NULL;
 }
 
-/* Does the text of the file, read at path, still say what params hold?  Compared in
- * written form, so that "0.1nm" and "0.10 nm" stay as typed; the name of a table of sizes
- * stays only where the table lies beside the preset. */
+/* Does a line of the file, read at path, still mean the value in params?  Values are
+ * compared as formatted text, so that "0.1nm" and "0.10 nm" stay as typed.  The name of
+ * a table of sizes stays only if the table is next to the preset. */
 static bool has_value(const struct gb_preset *preset, const struct gb_key_line *line,
                       const struct gb_field *field, const char *path, const char *now)
 {
@@ -511,7 +519,7 @@ static bool is_fallback(const struct gb_field *field, const char *now)
     return strcmp(gb_params_format(&initial, field, written, sizeof written), now) == 0;
 }
 
-/* Indexes the text again after an edit; it was valid before, so it is now. */
+/* Indexes the text after an edit.  It was valid before and still is. */
 static bool index_again(struct gb_preset *preset, struct gb_error *err)
 {
     gb_preset_lines_finish(&preset->lines);
@@ -577,7 +585,7 @@ static bool update_text(struct gb_preset *preset, const char *path,
 bool gb_preset_save(struct gb_preset *preset, const char *path,
                     enum gb_preset_extent extent, struct gb_error *err)
 {
-    /* The text kept in memory changes only when it stands on disk. */
+    /* the text in memory changes only after it was written */
     GString *before = g_string_new_len(preset->text->str, (gssize)preset->text->len);
     if (!update_text(preset, path, extent, err) ||
         !gb_text_file_replace(path, preset->text->str, preset->text->len,

@@ -11,31 +11,29 @@
  * and unknown keys. */
 struct gb_preset;
 
-/* Reads a key file.  name_or_path: a path that exists, or a name looked up (with and
- * without
- * ".ini") in $XDG_CONFIG_HOME/greenbody/presets, then in the shipped presets
- * (GB_PRESET_DIR of the installation, then presets/ beside the source tree, see
- * gb_preset_folders_find). Errors are one line: file, line, key, value, what is accepted. Unknown
- * keys in known groups are errors (a typo must not be silent) unless they start with
- * "x-"; unknown groups are kept and ignored. */
+/* Reads a key file. name_or_path is an existing path, or a name with or without ".ini"
+ * that is searched in $XDG_CONFIG_HOME/greenbody/presets and then in the shipped
+ * presets (see gb_preset_folders_find).  Errors are one line: file, line, key, value,
+ * what is expected.  Unknown keys in known groups are errors, because they are likely
+ * typos, unless they start with "x-".  Unknown groups are kept and ignored. */
 bool gb_preset_load(struct gb_preset **out, const char *name_or_path,
                     struct gb_error *err);
-/* All fallbacks, no file. */
+/* A preset with all defaults and no file. */
 bool gb_preset_create(struct gb_preset **out, struct gb_error *err);
 void gb_preset_destroy(struct gb_preset *preset); /* NULL is fine */
 
 struct gb_params *gb_preset_params(struct gb_preset *preset);
 const char *gb_preset_path(const struct gb_preset *preset); /* "" without a file */
 
-/* Whether the file has a line for the key. */
+/* Does the file have a line for the key? */
 bool gb_preset_has(const struct gb_preset *preset, const char *group, const char *key);
 
-/* The first group of the file that is another than `group`, or NULL. */
+/* The first group of the file other than `group`, or NULL. */
 const char *gb_preset_other_group(const struct gb_preset *preset, const char *group);
 
 enum gb_preset_extent {
-    GB_PRESET_CHANGED_KEYS, /* missing keys are added where they differ from the default */
-    GB_PRESET_ALL_KEYS      /* every missing key is added */
+    GB_PRESET_CHANGED_KEYS, /* add missing keys that differ from their defaults */
+    GB_PRESET_ALL_KEYS      /* add all missing keys */
 };
 
 /* Writes the preset atomically and durably: the original text with changed values
@@ -43,14 +41,14 @@ enum gb_preset_extent {
 bool gb_preset_save(struct gb_preset *preset, const char *path,
                     enum gb_preset_extent extent, struct gb_error *err);
 
-/* Where the keys of a key file stand.  GKeyFile parses values but forgets line numbers
- * and the exact bytes, which messages and saving need. */
+/* Positions of the keys of a file.  Messages need the line numbers and saving needs the
+ * exact bytes; GKeyFile provides neither. */
 struct gb_key_line {
     char *group;
     char *key;        /* NULL: the line of a [group] */
     int line;         /* from 1 */
     size_t value;     /* offset of the first byte of the value, blanks skipped */
-    size_t value_end; /* behind its last byte, trailing blanks left out */
+    size_t value_end; /* after its last byte, without trailing blanks */
     size_t end;       /* offset of the next line */
 };
 
@@ -60,14 +58,14 @@ struct gb_key_lines {
 };
 
 /* Indexes text.  Errors (GB_ERR_INPUT) begin with "path:line: ": NUL bytes, invalid
- * UTF-8, lines that are neither group, key nor comment, keys before a group, duplicate
- * keys. */
+ * UTF-8, duplicate keys, keys before a group, and lines that are neither group, key nor
+ * comment. */
 bool gb_preset_lines_init(struct gb_key_lines *lines, const char *path, const char *text,
                           size_t length, struct gb_error *err);
 
 void gb_preset_lines_finish(struct gb_key_lines *lines); /* zeroed is fine */
 
-/* Line of group.key, or of [group] for key = NULL; NULL when there is none. */
+/* Line of group.key, or of [group] for key = NULL.  NULL if there is none. */
 const struct gb_key_line *gb_preset_lines_find(const struct gb_key_lines *lines,
                                                const char *group, const char *key);
 

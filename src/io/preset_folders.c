@@ -7,7 +7,8 @@
 
 #include "base/program.h"
 
-/* What belongs to the program, by name, in the order of search. */
+/* Files of the program (presets, data, ...) are searched by name in several folders, in
+ * this order. */
 enum { ABOVE = 3 };
 
 /* Folder of materials in a folder of presets. */
@@ -22,7 +23,8 @@ static void add_once(GPtrArray *list, char *folder)
     }
 }
 
-/* share/greenbody/NAME of the prefix that the program stands in, wherever it was moved. */
+/* Adds share/greenbody/NAME of the prefix in which the program is, even if it was
+ * moved. */
 static void add_prefix(GPtrArray *list, const char *program, const char *name)
 {
     char *prefix = g_path_get_dirname(program);
@@ -30,8 +32,8 @@ static void add_prefix(GPtrArray *list, const char *program, const char *name)
     g_free(prefix);
 }
 
-/* A program run from its build folder finds what belongs to it in its source tree, or
- * through the link that meson leaves in a build folder elsewhere. */
+/* For a program in its build folder: adds the folder in the source tree, or the link
+ * that meson leaves in a build folder elsewhere. */
 static void add_source_tree(GPtrArray *list, const char *program, const char *name)
 {
     char *folder = g_strdup(program);
@@ -49,7 +51,7 @@ static void add_source_tree(GPtrArray *list, const char *program, const char *na
     g_free(folder);
 }
 
-/* The same of the prefix that the library stands in: PREFIX/lib, or a folder in it. */
+/* The same for the prefix in which the library is: PREFIX/lib or a folder in it. */
 static void add_library(GPtrArray *list, const char *library, const char *name)
 {
     char *folder = g_strdup(library);
@@ -67,8 +69,8 @@ static void add_library(GPtrArray *list, const char *library, const char *name)
     g_free(folder);
 }
 
-/* Folders of what is installed as share/greenbody/NAME; `given` is the value of a variable
- * of the environment, or NULL. */
+/* The folders searched for share/greenbody/NAME.  `given`: value of an environment
+ * variable, or NULL. */
 static void add_shipped(GPtrArray *list, const char *given, const char *name,
                         const char *installed, const char *in_tree)
 {
@@ -115,7 +117,7 @@ static char *find_in(const char *folder, const char *name)
     return NULL;
 }
 
-/* `part` of each folder of presets: the folder itself (NULL), or a folder in it. */
+/* `part` of each preset folder: the folder itself (NULL), or a folder in it. */
 static char **folders_of(const char *part)
 {
     char **list = gb_preset_folders();
@@ -193,7 +195,7 @@ static char **list_named(const char *part)
     g_strfreev(list);
     guint count = 0;
     char **found = (char **)g_hash_table_get_keys_as_array(names, &count);
-    g_hash_table_steal_all(names); /* they are the caller's now */
+    g_hash_table_steal_all(names); /* the caller owns them now */
     g_hash_table_destroy(names);
     qsort(found, count, sizeof *found, compare_names);
     return found;

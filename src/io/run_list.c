@@ -26,17 +26,17 @@
  *
  * Below: the last point of a curve, the search, a run as a line of text, and deletion. */
 
-/* Longer than the comments with the header, and than a row. */
+/* More bytes than the comments with the header, and than a row. */
 enum { END_BYTES = 16384 };
 
-/* At most END_BYTES bytes from a position, ended by a zero. */
+/* Reads at most END_BYTES bytes from a position and appends a zero. */
 static void read_block(int fd, off_t from, char block[END_BYTES + 1])
 {
     const ssize_t bytes = pread(fd, block, END_BYTES, from);
     block[bytes > 0 ? bytes : 0] = '\0';
 }
 
-/* The first line that is no comment; ends it by a zero. */
+/* The first line that is not a comment, terminated by a zero. */
 static char *header_in(char *block)
 {
     char *line = block;
@@ -50,7 +50,7 @@ static char *header_in(char *block)
     return end != NULL ? line : NULL;
 }
 
-/* The last line that has its newline; ends it by a zero. */
+/* The last complete line, terminated by a zero. */
 static char *last_line_in(char *block)
 {
     char *end = strrchr(block, '\n');
@@ -210,17 +210,17 @@ static void read_run(struct gb_run_list_item *item)
     }
 }
 
-/* A folder of greenbody report, which has the preset of a run but none of its results. */
+/* Is this a folder of greenbody report?  It has the preset of a run but no results. */
 static bool is_report(const char *path)
 {
     int64_t unused;
     return is_file(path, "report.md", &unused) && !is_file(path, "status.json", &unused);
 }
 
-/* A folder under search. */
+/* A folder being searched. */
 struct search {
     GPtrArray *list;
-    size_t prefix; /* bytes of the folder's path and its slash */
+    size_t prefix; /* length of the folder's path with its slash */
     int depth;
 };
 
@@ -298,7 +298,7 @@ char *gb_run_list_size_text(int64_t bytes)
     return text;
 }
 
-/* "11-25 23:58", or "2025-11-25" of another year; g_free. */
+/* "11-25 23:58", or "2025-11-25" in another year; g_free. */
 static char *date_text(int64_t seconds)
 {
     GDateTime *time = g_date_time_new_from_unix_local(seconds);
@@ -350,10 +350,11 @@ char *gb_run_list_line_head(enum gb_run_list_extent extent)
     return join(extent, "state", "density", "pressure", "size", "date");
 }
 
-/* Deletion goes by descriptors, so that no link put in place meanwhile leads out of the run.
+/* Deletion uses file descriptors, so that a link created meanwhile cannot lead out of
+ * the run.
  *
- * Calls visit for each entry of the directory `name` in `parent`.  False: visit failed, or
- * the directory cannot be read; errno tells why. */
+ * Calls visit for each entry of the directory `name` in `parent`.  False: visit failed,
+ * or the directory cannot be read; see errno. */
 static bool for_each_entry(int parent, const char *name,
                            bool (*visit)(int folder, const char *entry, void *data),
                            void *data)
@@ -402,7 +403,7 @@ static bool count_entry(int folder, const char *name, void *data)
     if (is_directory(folder, name)) {
         return for_each_entry(folder, name, count_entry, data);
     }
-    *(int *)data += strcmp(name, ".lock") != 0; /* which is no file of the run */
+    *(int *)data += strcmp(name, ".lock") != 0; /* .lock is not a file of the run */
     return true;
 }
 

@@ -12,14 +12,15 @@
 #include "greenbody/status.h"
 #include "io/status_json.h"
 
-/* The directory of a run: making it, holding its lock, and removing what is in it.
+/* The directory of a run: creation, lock, and removal of its files.
  *
- * Only files that a run writes are ever removed.  They are known by name; any other file
- * makes a directory foreign, and it is left alone.  Replacing a run first checks everything,
- * so that an error changes nothing.  A lock (io/lock.h) says that a process computes the run.
+ * Only files that a run writes are ever removed.  They are known by name; any other
+ * file makes a directory foreign, and it is not touched.  Replacing a run first checks
+ * everything, so that an error changes nothing.  A lock (io/lock.h) shows that a
+ * process computes the run.
  *
- * Below: the names of files, the checks before a directory is used, and making, opening and
- * finishing it. */
+ * Order of this file: file names, the checks before a directory is used, and creating,
+ * opening and closing it. */
 
 static const char *const known_files[] = {
     "preset.ini", "curve.csv", "events.log", "status.json", "state.h5", "packing.csv",
@@ -29,7 +30,8 @@ static const char *const known_files[] = {
     "trajectory-contacts.lammps-dump"};
 static const char snapshot_folder[] = "snapshots";
 
-/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed. */
+/* Is this the tail of a temporary file, "status.json.X7TQ2C" or "state.h5.tmp", left by
+ * a killed atomic replacement? */
 static bool is_leftover(const char *tail)
 {
     if (strcmp(tail, ".tmp") == 0) {
@@ -71,7 +73,7 @@ static bool has_run(const char *directory)
 
 bool gb_rundir_files_protect(const char *path, struct gb_error *err)
 {
-    char *true_path = realpath(path, NULL); /* links lead to the file that is replaced */
+    char *true_path = realpath(path, NULL); /* resolves links */
     const char *target = true_path != NULL ? true_path : path;
     char *name = g_path_get_basename(target);
     char *directory = g_path_get_dirname(target);
@@ -92,7 +94,7 @@ bool gb_rundir_files_protect(const char *path, struct gb_error *err)
     return !own;
 }
 
-/* Of the files that an engine alone replaces. */
+/* Is this a temporary file of a file that only an engine replaces? */
 static bool is_engine_leftover(const char *name)
 {
     static const char *const replaced[] = {"state.h5", "status.json", "curve.csv",
@@ -106,7 +108,7 @@ static bool is_engine_leftover(const char *name)
     return false;
 }
 
-/* What is left of a name behind the last ending of this kind; NULL: it has none. */
+/* The part of a name after the last occurrence of `ending`; NULL: none. */
 static const char *after_ending(const char *name, const char *ending)
 {
     const char *at = g_strrstr(name, ending);
@@ -124,7 +126,8 @@ static bool is_snapshot_name(const char *name)
     return known;
 }
 
-/* Of the states that an engine alone keeps among the snapshots. */
+/* Is this a temporary file of a state that only an engine keeps in the snapshot folder?
+ */
 static bool is_state_leftover(const char *name)
 {
     const char *tail = after_ending(name, ".h5");
@@ -137,8 +140,8 @@ static bool has_type(const char *path, mode_t type)
     return lstat(path, &info) == 0 && (info.st_mode & S_IFMT) == type;
 }
 
-/* Name of the first entry that no run writes (g_free), NULL when there is none.  *entries
- * counts what was seen. */
+/* Name of the first entry that no run writes (g_free); NULL if there is none.  Adds the
+ * number of entries seen to *entries. */
 static char *first_foreign(const char *path, bool (*known)(const char *name),
                            int *entries, GError **failure)
 {
@@ -149,7 +152,7 @@ static char *first_foreign(const char *path, bool (*known)(const char *name),
     char *foreign = NULL;
     const char *name;
     while (foreign == NULL && (name = g_dir_read_name(dir)) != NULL) {
-        if (strcmp(name, ".lock") == 0) { /* of rundir.c; it says nothing of a run */
+        if (strcmp(name, ".lock") == 0) { /* the lock alone does not make a run */
             continue;
         }
         char *full = g_build_filename(path, name, NULL);
@@ -169,14 +172,13 @@ static char *first_foreign(const char *path, bool (*known)(const char *name),
     return foreign;
 }
 
-/* Name of the first entry that no run writes (g_free), NULL when there is none; *entries
- * is increased by the number of entries seen. */
+/* The same for the directory of a run, including its folder of snapshots. */
 static char *rundir_files_foreign(const char *path, int *entries, GError **failure)
 {
     return first_foreign(path, is_known_name, entries, failure);
 }
 
-/* Removes the files of a run; entries of other names stay. */
+/* Removes the files with known names; other entries stay. */
 static bool clear_files(const char *path, bool (*known)(const char *name),
                         struct gb_error *err)
 {
@@ -198,7 +200,7 @@ static bool clear_files(const char *path, bool (*known)(const char *name),
     return ok;
 }
 
-/* Removes the files of a run; entries of other names stay. */
+/* Removes the files of a run, including its kept states; other entries stay. */
 static bool rundir_files_remove(const char *path, struct gb_error *err)
 {
     char *snapshots = g_build_filename(path, snapshot_folder, NULL);
@@ -227,7 +229,7 @@ void gb_rundir_files_tidy(const char *path)
 
 static const char lock_name[] = ".lock";
 
-/* Locks dir->path and keeps the lock. */
+/* Opens and locks dir->path. */
 static bool hold(struct gb_rundir *dir)
 {
     struct stat info;
@@ -235,7 +237,7 @@ static bool hold(struct gb_rundir *dir)
         return false;
     }
     dir->held = g_strdup_printf("/proc/self/fd/%d", dir->lock.folder);
-    if (stat(dir->held, &info) != 0) { /* no such file system here */
+    if (stat(dir->held, &info) != 0) { /* no /proc/self/fd here */
         g_free(dir->held);
         dir->held = g_strdup(dir->path);
     }
@@ -259,7 +261,7 @@ static bool is_done(const char *path)
     return done;
 }
 
-/* May the files in this directory be replaced by those of a new run? */
+/* May the files in this directory be replaced by a new run? */
 static bool check_content(const char *path, enum gb_rundir_mode mode,
                           struct gb_error *err)
 {
@@ -342,7 +344,7 @@ bool gb_rundir_check(const char *path, enum gb_rundir_mode mode, struct gb_error
                                    : check_parent(path, err);
 }
 
-/* Removes the directories from path up to made, as long as they are empty. */
+/* Removes the directories from path up to made if they are empty. */
 static void remove_made(const char *path, const char *made)
 {
     char *at = g_canonicalize_filename(path, NULL);
@@ -354,7 +356,8 @@ static void remove_made(const char *path, const char *made)
     g_free(at);
 }
 
-/* The names of new folders, from full up to the one below `above`, outlast a power failure. */
+/* Syncs the names of new folders, from full up to the one below `above`, so that they
+ * survive a power failure. */
 static void sync_names(const char *full, const char *above)
 {
     char *at = g_strdup(full);
@@ -362,7 +365,7 @@ static void sync_names(const char *full, const char *above)
         char *up = g_path_get_dirname(at);
         const int fd = open(up, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (fd >= 0) {
-            (void)fsync(fd); /* some file systems cannot */
+            (void)fsync(fd); /* not supported by some file systems */
             close(fd);
         }
         g_free(at);
@@ -371,8 +374,8 @@ static void sync_names(const char *full, const char *above)
     g_free(at);
 }
 
-/* Makes path, which does not exist, with its parents; only one of two processes that do
- * so at the same time succeeds.  Sets dir->made. */
+/* Creates path, which does not exist, and its parents.  If two processes do so at the
+ * same time, only one succeeds.  Sets dir->made. */
 static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
 {
     char *full = g_canonicalize_filename(dir->path, NULL);
@@ -415,7 +418,7 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode
                                   g_strerror(errno)));
         goto fail;
     }
-    /* again: it may have changed before it was locked */
+    /* check again: the directory may have changed before it was locked */
     if (!check_content(path, mode, err) || !rundir_files_remove(path, err)) {
         goto fail;
     }
@@ -498,7 +501,7 @@ void gb_rundir_remove(struct gb_rundir *dir)
     gb_rundir_finish(dir);
 }
 
-/* Characters of a value in the name of a directory, and those before a checksum. */
+/* Longest value in a directory name, and the characters kept before a checksum. */
 enum { VALUE_MAX = 60, VALUE_KEPT = 40 };
 
 void gb_rundir_name_value(GString *name, const char *value, bool free_text)
@@ -507,7 +510,7 @@ void gb_rundir_name_value(GString *name, const char *value, bool free_text)
     for (const char *c = value; *c != '\0'; c++) {
         if (g_ascii_isalnum(*c) || *c == '.' || *c == '-' || *c == '+') {
             g_string_append_c(name, *c);
-        } else if (free_text) { /* not the blanks in "10 nm" */
+        } else if (free_text) { /* a number drops the blank in "10 nm" */
             g_string_append_printf(name, "~%02X", (unsigned)(unsigned char)*c);
         }
     }

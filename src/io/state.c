@@ -14,19 +14,19 @@
 #include "pack/die/die.h"
 #include "scene/path/path.h"
 
-/* A state and its file state.h5: the arrays that every state has, those that it may lack,
- * checks of what a file says, then writing and reading. */
+/* A state and its file state.h5.  Order of this file: arrays that every state has,
+ * optional arrays, checks of the contents of a file, writing, reading. */
 
-/* Raised when a reader of another layout would misunderstand this one; no other is read. */
+/* Increased when older readers would misunderstand a file; other layouts are not read. */
 static const int32_t layout_number = 6;
 
-/* Beyond this a file is nonsense rather than large. */
+/* A file with more rows than this is damaged. */
 static const int64_t count_max = 200000000;
 
-/* What a row of an array belongs to. */
+/* What the rows of an array belong to. */
 enum row_of { PARTICLE, PAIR, WALL, ROW_KINDS };
 
-/* An array of the file and its place in the struct. */
+/* An array of the file and its member of the struct. */
 struct array_row {
     const char *name;
     enum gb_hdf_type type;
@@ -54,8 +54,8 @@ static const struct array_row arrays[] = {
      "E d^2"},
 };
 
-/* A number of the file's root group: unit in the name, as in curve.csv and the struct.
- * Numbers of the point are rows of io/point_columns.h. */
+/* A number in the file's root group; its name contains the unit.  Numbers of the point
+ * are rows of io/point_columns.h. */
 struct number_row {
     const char *name;
     enum gb_hdf_type type;
@@ -79,8 +79,8 @@ enum {
     DIGEST_SIZE = 65
 };
 
-/* An array of a state as its file has it: in memory, or made by the state's source, some
- * rows at a time. */
+/* An array to be written: in memory, or generated some rows at a time by the state's
+ * source. */
 struct state_array {
     const struct gb_state *state;
     size_t member; /* offset of its pointer in gb_state */
@@ -99,7 +99,7 @@ static bool array_exists(const struct state_array *array)
            gb_state_record_has(array->state->source, array->member);
 }
 
-/* Rows begin .. end - 1, until the next call. */
+/* Rows begin .. end - 1, valid until the next call. */
 static const void *rows_at(void *data, int64_t begin, int64_t end)
 {
     const struct state_array *array = data;
@@ -126,7 +126,7 @@ static bool array_put(const struct state_array *array, struct gb_hdf *file,
     return gb_hdf_put_rows(file, &array->shape, (struct gb_hdf_rows){rows_at, &of}, err);
 }
 
-/* An array, and the items of a record that have it. */
+/* An optional array, and the record items that contain it. */
 struct optional_row {
     const char *name; /* of the dataset */
     const char *unit;
@@ -134,10 +134,11 @@ struct optional_row {
     bool of_pairs;
     size_t member;
     const char *cell, *bed; /* items: of a periodic cell, of a die; NULL: none */
-    int power; /* of what turns their arcs into angles: diameter of a cell's, radius of a die's */
+    int power; /* of the length in arcs: diameter in a cell, radius in a die */
 };
 
-/* Velocities exist in scenes with time, resultants and contact radii in states of a run. */
+/* Only scenes with time have velocities; only states of a run have resultants and
+ * contact radii. */
 static const struct optional_row optional_rows[] = {
     {"/velocity", "d/T", 3, false, offsetof(struct gb_state, velocity), "motion/velocity",
      "bed/speed", 0},
@@ -154,7 +155,7 @@ enum { OPTIONAL_ROWS = sizeof optional_rows / sizeof optional_rows[0] };
 
 static const char time_name[] = "second_per_time", sum_name[] = "sha256_optional";
 
-/* Numbers that a state may lack, with the ends of their ranges. */
+/* Optional numbers with the limits of their ranges. */
 static const struct {
     const char *name;
     int count;
@@ -236,7 +237,7 @@ static void optional_free(struct gb_state *state)
     }
 }
 
-/* Rows begin .. end - 1: three optional_numbers of each row of the item, arcs as angles. */
+/* Converts rows begin .. end - 1 of an item, with arcs as angles. */
 static void fill_rows(const struct gb_state *state, const struct optional_row *row,
                       const struct gb_record_item *item, int64_t begin, int64_t end,
                       double *to)
@@ -264,7 +265,7 @@ static int item_columns(const struct gb_state *state, const struct optional_row 
     return state->die_radius > 0.0 ? BED_COLUMNS : row->columns;
 }
 
-/* The item of an array that the record has; NULL without one. */
+/* The item of an array in the record; NULL if there is none. */
 static const struct gb_record_item *find_item(const struct gb_state *state,
                                               const struct optional_row *row,
                                               const struct gb_record *record)
@@ -320,7 +321,7 @@ void gb_state_optional_fill(const struct gb_state *state, const struct gb_record
     fill_rows(state, row, item, begin, end, to);
 }
 
-/* SHA-256 of the arrays that are there, in the order of the table. */
+/* SHA-256 of the optional arrays that exist, in the order of the table. */
 static bool optional_digest(const struct gb_state *state, char text[DIGEST_SIZE])
 {
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -338,7 +339,7 @@ static bool optional_digest(const struct gb_state *state, char text[DIGEST_SIZE]
     return some;
 }
 
-/* Datasets of the state's file with a checksum of their own. */
+/* Writes the optional datasets with a checksum of their own. */
 static bool optional_write(const struct gb_state *state, struct gb_hdf *file,
                            struct gb_error *err)
 {
@@ -377,7 +378,7 @@ static bool optional_check(const struct gb_state *state, const char *path,
     return true;
 }
 
-/* What is out of range stays as gb_state_create has it. */
+/* Reads optional numbers; a value out of range keeps its default. */
 static void optional_read_numbers(struct gb_state *state, struct gb_hdf *file)
 {
     for (int k = 0; k < OPTIONAL_NUMBERS; k++) {
@@ -395,8 +396,8 @@ static void optional_read_numbers(struct gb_state *state, struct gb_hdf *file)
     }
 }
 
-/* Reads them; radii and sizes of the state must be set.
- * Errors: GB_ERR_MEMORY, GB_ERR_INPUT naming path and dataset. */
+/* Reads the optional arrays; the radii and sizes of the state must be set.  Errors:
+ * GB_ERR_MEMORY, GB_ERR_INPUT naming path and dataset. */
 static bool optional_read(struct gb_state *state, struct gb_hdf *file, const char *path,
                           struct gb_error *err)
 {
@@ -427,7 +428,7 @@ static bool optional_read(struct gb_state *state, struct gb_hdf *file, const cha
     return done && optional_check(state, path, err);
 }
 
-/* The pointer member that a row describes. */
+/* The pointer member of a row. */
 static void **array_member(struct gb_state *state, const struct array_row *row)
 {
     return (void **)(void *)((char *)state + row->offset);
@@ -456,7 +457,7 @@ static bool allocate(struct gb_state *state, const struct array_row *row,
                      struct gb_error *err)
 {
     const struct gb_hdf_array shape = shape_of(row, state);
-    /* one spare row, so that an empty array is still memory */
+    /* one row more, so that an empty array is not NULL */
     void *memory =
         gb_alloc_array((size_t)(shape.rows + 1), gb_hdf_row_bytes(&shape), err);
     if (memory == NULL) {
@@ -548,7 +549,7 @@ void gb_state_destroy(struct gb_state *state)
     gb_alloc_free(state);
 }
 
-/* Beyond this a length is nonsense rather than large; d. */
+/* Larger lengths (d) mean that a file is damaged. */
 static const double length_max = 1e9;
 
 static bool positive(double x, double limit)
@@ -556,7 +557,7 @@ static bool positive(double x, double limit)
     return isfinite(x) && x > 0.0 && x <= limit;
 }
 
-/* A branch of loading and unloading, a stage, or a leg from the second on. */
+/* Is this the number of a branch, a stage of a die, or a leg from the second on? */
 static bool is_branch(int branch)
 {
     return branch >= GB_BRANCH_LEAST ||
@@ -582,7 +583,7 @@ static const char *header_fault(const struct gb_state *state)
     if (state->point.step < 0 || !is_branch(state->point.branch)) {
         return state->point.step < 0 ? "step" : "branch";
     }
-    /* NaN marks a value that does not exist; nothing of a packing is infinite */
+    /* NaN marks a value that does not exist; no quantity of a packing is infinite */
     const struct gb_point_column *row;
     for (size_t k = 0; (row = gb_point_columns_at(k)) != NULL; k++) {
         if (row->finite && isinf(gb_point_columns_value(row, &state->point, 0))) {
@@ -595,7 +596,7 @@ static const char *header_fault(const struct gb_state *state)
 static const char *particle_fault(const struct gb_state *state, int64_t i)
 {
     for (int k = 0; k < 3; k++) {
-        /* one cell beyond either side: pictures and exporters may fold, not search */
+        /* at most one cell outside, so that readers can wrap a position in one step */
         const double x = state->position[3 * i + k] / state->cell[k];
         if (!(x >= -1.0 && x <= 2.0)) {
             return "/position";
@@ -639,8 +640,8 @@ static const char *wall_fault(const struct gb_state *state, int64_t i)
     return NULL;
 }
 
-/* Name of the first dataset or attribute with a value that no packing has (and its row,
- * for datasets), or NULL when all is well. */
+/* Name of the first dataset or attribute with an impossible value, and its row for
+ * datasets; NULL if there is none. */
 static const char *first_fault(const struct gb_state *state, int64_t *row)
 {
     const char *fault = header_fault(state);
@@ -660,8 +661,8 @@ static const char *first_fault(const struct gb_state *state, int64_t *row)
     return fault;
 }
 
-/* SHA-256 of all arrays in the order of the table.  HDF5 checks its headers but not plain
- * data. */
+/* SHA-256 of all arrays in the order of the table.  HDF5 has checksums for its headers
+ * but not for plain data. */
 static void digest(const struct gb_state *state, char text[DIGEST_SIZE])
 {
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -805,7 +806,8 @@ static bool check(const struct gb_state *state, const char *path, struct gb_erro
     return gb_error_set(err, GB_ERR_INPUT, "%s: %s: is out of range", path, fault);
 }
 
-/* Sizes before memory: every dataset must agree with the first of its kind. */
+/* Reads the sizes before memory is allocated.  Every dataset must have as many rows as
+ * the first of its kind. */
 static bool read_sizes(struct gb_hdf *file, const char *path, int64_t size[ROW_KINDS],
                        struct gb_error *err)
 {

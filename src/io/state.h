@@ -11,46 +11,46 @@
 
 struct gb_state_source;
 
-/* A packing as pictures, exporters and state.h5 see it: plain arrays owned by the struct,
- * reduced lengths (diameters), forces in E d^2. */
+/* A packing for pictures, exporters and state.h5: plain arrays owned by the struct,
+ * lengths in diameters, forces in E d^2. */
 struct gb_state {
     int dimension;
     int64_t count;
-    double cell[3];    /* periodic edges, d; y is 1 in 2D */
-    double tilt[3];    /* of the cell: xy, xz, yz, d */
-    double die_radius; /* d; 0: a periodic cell, else the cell is the box of a die */
-    double
-        die_top; /* of the open end of the bore; NaN: endless; 0 and below: drawn off */
+    double cell[3];      /* periodic edges, d; y is 1 in 2D */
+    double tilt[3];      /* of the cell: xy, xz, yz, d */
+    double die_radius;   /* d; 0: a periodic cell, else the cell is the box of a die */
+    double die_top;      /* open end of the bore; NaN: endless; <= 0: removed */
     double *position;    /* count x 3, inside the cell */
     double *radius;      /* count */
     int32_t *contacts;   /* count: coordination number of each particle */
     int64_t pair_count;  /* pairs with r < d */
     int32_t *pair;       /* pair_count x 2 particle indices */
-    double *pair_force;  /* pair_count x 3: whole force on the first, E d^2 */
+    double *pair_force;  /* pair_count x 3: total force on the first, E d^2 */
     double *pair_normal; /* pair_count: f_n, positive when pressed */
     uint8_t *pair_bridged;
     int64_t wall_count; /* contacts with the walls of a die */
     int32_t *wall;      /* wall_count x 2: particle, enum gb_die_wall */
-    double *wall_force; /* wall_count x 3: whole force on the particle, E d^2 */
-    /* What a state may lack: NULL.  See io/state.h. */
-    double *velocity;       /* count x 3, d/T; beside the affine motion of a cell */
+    double *wall_force; /* wall_count x 3: total force on the particle, E d^2 */
+    /* Optional arrays; NULL: not in this state. */
+    double *velocity;       /* count x 3, d/T; without the affine motion of a cell */
     double *spin;           /* count x 3: angular velocity, 1/T */
     double *force;          /* count x 3: resultant of the contacts, E d^2 */
     double *torque;         /* count x 3, about the centre, E d^3 */
     double *contact_radius; /* pair_count: of the contact, or of its bridge, d */
-    /* Of a state that is only written: the arrays of pairs and those that a state may lack
-     * are NULL, and their rows made of a record (io/state_record.h).  NULL: none. */
+    /* For a state that is only written: the arrays of pairs and the optional arrays are
+     * NULL, and their rows are generated from a record (io/state_record.h).  NULL:
+     * none. */
     struct gb_state_source *source;
     struct gb_point point;
     double metre_per_length, pascal_per_stress;
-    double second_per_time; /* T; NaN: not known, or a scene without time */
+    double second_per_time; /* T in s; NaN: unknown, or a scene without time */
     char preset[256];       /* title of the preset */
     uint64_t seed;
     char version[32];
-    /* Attraction across gaps (io/state_forces.h): strength and shift of P1 (3), E d^2
-     * and d, and how far it reaches, d; 0: none. */
+    /* Attraction across gaps (io/state_forces.h): strength (E d^2) and shift (d) of P1
+     * (3), and its range (d); 0: none. */
     double attraction_strength, attraction_shift, attraction_cutoff;
-    /* What pictures show besides the packing. */
+    /* For pictures, in addition to the packing. */
     double pressed[3];    /* 1: an axis along which the scene is pressed */
     double punch_height;  /* of the face of the upper punch of a die, d; NaN: none */
     double funnel_height; /* of the funnel's outlet over the floor, d; 0: no funnel */
@@ -58,41 +58,43 @@ struct gb_state {
     double funnel_slope;  /* radius over height of its cone */
 };
 
-/* Arrays for count particles and pair_count pairs, zeroed. */
+/* Creates a state with zeroed arrays for count particles and pair_count pairs. */
 bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
                      struct gb_error *err);
-/* Arrays for count particles alone, zeroed; the pairs are to come from a source. */
+/* Creates a state with zeroed arrays for count particles only; a source provides the
+ * pairs. */
 bool gb_state_create_particles(struct gb_state **out, int64_t count, int64_t pair_count,
                                struct gb_error *err);
-/* Arrays for the pairs, zeroed. */
+/* Allocates zeroed arrays for the pairs. */
 bool gb_state_allocate_pairs(struct gb_state *state, struct gb_error *err);
-/* Arrays for count contacts with walls, zeroed; those that it had are lost. */
+/* Allocates zeroed arrays for count contacts with walls and frees the previous ones. */
 bool gb_state_allocate_walls(struct gb_state *state, int64_t count, struct gb_error *err);
 void gb_state_destroy(struct gb_state *state); /* NULL is fine */
 
-/* The periodic cell; in a die the box around it. */
+/* The periodic cell, or the box around a die. */
 struct gb_cell gb_state_cell(const struct gb_state *state);
 
-/* HDF5 file, written to a temporary name, synced and renamed.  Units are attributes.
- * record (may be NULL) goes into it as the group /checkpoint: see hdf/hdf_record.h. */
+/* Writes an HDF5 file to a temporary name, syncs and renames it.  Units are attributes.
+ * record (may be NULL) becomes the group /checkpoint, see hdf/hdf_record.h. */
 bool gb_state_write(const struct gb_state *state, const struct gb_record *record,
                     const char *path, struct gb_error *err);
-/* Errors: GB_ERR_MACHINE (cannot be opened), GB_ERR_INPUT (not a state, sizes that do not
- * fit, indices or numbers out of range), naming path and dataset. */
+/* Errors: GB_ERR_MACHINE (cannot be opened) or GB_ERR_INPUT (not a state, sizes that do
+ * not match, indices or numbers out of range), naming path and dataset. */
 bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err);
 
-/* Memory for an array of the state, zeroed: &state->velocity, ... */
+/* Allocates a zeroed optional array: &state->velocity, ... */
 bool gb_state_optional_allocate(struct gb_state *state, double **member,
                                 struct gb_error *err);
 
-/* Those that the record of a run has.  The rotations of a periodic cell are arcs there,
- * the diameter times the angle: the radii of the state must be set.  Errors:
- * GB_ERR_MEMORY, GB_ERR_INPUT for an item of another shape. */
+/* Copies the optional arrays that the record of a run has.  Rotations of a periodic
+ * cell are stored as arcs (diameter times angle), so the radii of the state must be
+ * set.  Errors: GB_ERR_MEMORY, GB_ERR_INPUT for an item of another shape. */
 bool gb_state_optional_take(struct gb_state *state, const struct gb_record *record,
                             struct gb_error *err);
 
-/* The same without a copy, for sources of a periodic cell: the shapes of all items; is
- * there an item for the array at an offset of gb_state; its rows begin .. end - 1. */
+/* The same without a copy, for sources of a periodic cell: check the shapes of all
+ * items; has the record an item for the array at this offset of gb_state; convert rows
+ * begin .. end - 1. */
 bool gb_state_optional_check(const struct gb_state *state, const struct gb_record *record,
                              struct gb_error *err);
 

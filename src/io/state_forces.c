@@ -11,10 +11,11 @@
 #include "pack/cell/cell.h"
 #include "pack/list/neighbour_list.h"
 
-/* Stress of each particle from its pairs, Pa, positive in compression: P1 (16) with half of
- * each pair for either particle, over the particle's part of the cell.  Pairs are contacts
- * and those that attract across a gap.  Parts are proportional to the particle volumes; the
- * mean weighted by them is the stress of the cell. */
+/* Stress of each particle from its pairs, Pa, positive in compression: P1 (16) with
+ * half of each pair assigned to either particle, divided by the volume assigned to the
+ * particle.  Pairs are contacts and pairs that attract across a gap.  The assigned
+ * volumes are proportional to the particle volumes and add up to the cell; the
+ * volume-weighted mean stress is the stress of the cell. */
 
 enum { COMPONENTS = 6 };
 
@@ -35,7 +36,7 @@ static double volume_ratio(const struct gb_state *state)
     return volume / solid;
 }
 
-/* A contact, or from pair_count on a pair across a gap. */
+/* A contact, or for k >= pair_count a pair across a gap. */
 struct pair {
     const int32_t *particle;
     const double *force;
@@ -49,7 +50,7 @@ static struct pair pair_at(const struct gb_state *state, const struct gb_state_g
                    : (struct pair){gaps->pair + 2 * gap, gaps->force + 3 * gap};
 }
 
-/* Half of the symmetric product of force and branch vector of a pair, E d^3. */
+/* Half of the symmetrised product of force and branch vector of a pair, E d^3. */
 static void half_of_pair(const struct gb_state *state, const struct gb_cell *cell,
                          struct pair pair, double half[COMPONENTS])
 {
@@ -105,10 +106,10 @@ void gb_state_forces_stress_mean(const struct gb_state *state,
     }
 }
 
-/* Beyond the reach (d): rounding of positions. */
+/* Margin beyond the range of attraction (d) for rounding of positions. */
 static const double skin = 1e-9;
 
-/* A pair as one number that sorts like it. */
+/* A pair as one number with the same order. */
 static uint64_t key_of(int64_t i, int64_t j)
 {
     return (uint64_t)(i < j ? i : j) << 32 | (uint64_t)(i < j ? j : i);
@@ -120,7 +121,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The contacts, ascending; gb_alloc_free. */
+/* Keys of the contacts, ascending; gb_alloc_free. */
 static uint64_t *contact_keys(const struct gb_state *state, struct gb_error *err)
 {
     const size_t count = (size_t)state->pair_count;
@@ -136,7 +137,7 @@ static uint64_t *contact_keys(const struct gb_state *state, struct gb_error *err
     return key;
 }
 
-/* Positions inside the cell, then diameters; gb_alloc_free. */
+/* Positions wrapped into the cell, then diameters; gb_alloc_free. */
 static double *inside(const struct gb_state *state, const struct gb_cell *cell,
                       struct gb_error *err)
 {
@@ -152,7 +153,7 @@ static double *inside(const struct gb_state *state, const struct gb_cell *cell,
     return at;
 }
 
-/* Force on the first of two particles at this branch vector; false beyond the reach. */
+/* Force on the first of two particles with this branch vector; false beyond the range. */
 static bool attract(const struct gb_state *state, const int32_t pair[2],
                     const double r[3], double force[3])
 {
@@ -175,7 +176,7 @@ static bool attract(const struct gb_state *state, const int32_t pair[2],
     return true;
 }
 
-/* Those pairs of particle i in a list that are no contacts. */
+/* Appends the pairs of particle i in a list that are not contacts. */
 static void append(const struct gb_state *state, const struct gb_neighbour_list *list,
                    const struct gb_pair_list *pairs, const double *position, int64_t i,
                    const uint64_t *contact, struct gb_state_gaps *gaps)
@@ -251,7 +252,7 @@ void gb_state_forces_gaps_finish(struct gb_state_gaps *gaps)
     *gaps = (struct gb_state_gaps){0};
 }
 
-/* Angle of a contact's axis to z, degrees, 0 to 90. */
+/* Angle between a contact's axis and z, degrees, 0 to 90. */
 static double angle_to_z(const struct gb_cell *cell, const struct gb_state *state,
                          int64_t pair)
 {

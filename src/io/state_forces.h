@@ -5,23 +5,23 @@
 
 /* Forces between the particles of a state: pairs across gaps, stresses, angles. */
 
-/* Pairs that attract across a gap: P1 (3) out to the reach of the attraction, from the
- * positions of a state.  They add to the contacts what these lack of the stress: a state
- * lists contacts only. */
+/* Pairs that attract across a gap, found from the positions of a state: P1 (3) up to
+ * the range of attraction.  A state lists only contacts, so stresses need these pairs
+ * as well. */
 struct gb_state_gaps {
     int64_t count;
-    int32_t *pair; /* count x 2 particle indices, by the first one */
-    double *force; /* count x 3: on the first, E d^2 */
+    int32_t *pair; /* count x 2 particle indices, sorted by the first */
+    double *force; /* count x 3: force on the first, E d^2 */
 };
 
-/* None without attraction and in a die.  Errors: GB_ERR_MEMORY, GB_ERR_GUARD for a
- * cell narrower than two reaches. */
+/* Finds the pairs; none without attraction and in a die.  Errors: GB_ERR_MEMORY,
+ * GB_ERR_GUARD for a cell narrower than twice the range. */
 bool gb_state_forces_gaps_init(struct gb_state_gaps *gaps, const struct gb_state *state,
                                struct gb_error *err);
 
 void gb_state_forces_gaps_finish(struct gb_state_gaps *gaps);
 
-/* stress[count]: the mean, a third of the trace (half of it in 2D). */
+/* stress[count]: mean stress, a third of the trace (half in 2D). */
 void gb_state_forces_stress_mean(const struct gb_state *state,
                                  const struct gb_state_gaps *gaps, double *stress);
 
@@ -29,7 +29,7 @@ void gb_state_forces_stress_mean(const struct gb_state *state,
 void gb_state_forces_stress_tensor(const struct gb_state *state,
                                    const struct gb_state_gaps *gaps, double *stress);
 
-/* Bins of the angle of a contact's axis to z, from 0 to 90 degrees. */
+/* Number of bins of the angle between a contact's axis and z, from 0 to 90 degrees. */
 enum { GB_STATE_FORCES_ANGLES = 18 };
 
 /* Mean normal force in the bins, nN; NaN: no contact there.  P1 Fig. 14. */

@@ -19,13 +19,14 @@
 #include "scene/loading_kind.h"
 #include "scene/model.h"
 
-/* Contact radii of pairs, d.
+/* States from the record of a run, for cells and dies.  A state that is only written
+ * takes its pairs from a source, which computes the rows when they are written;
+ * otherwise all arrays are filled.
  *
- * Periodic cell: a = sqrt(d' h)/2 with 1/d' the mean of 1/d_i and 1/d_j, of a bridge
- * a_ch = sqrt(d' h_min)/2 (or its printed form); P1 II.A and law/law_unequal.h.
- * Die: Hertz' a^2 = R* h; of a contact that has flowed Storakers' at its deepest overlap,
- * which unloading does not undo.  P3 (2), (17).
- */
+ * Contact radii, d.  Periodic cell: a = sqrt(d' h)/2, where 1/d' is the mean of 1/d_i
+ * and 1/d_j; for a bridge a_ch = sqrt(d' h_min)/2 or its printed form.  P1 II.A and
+ * law/law_unequal.h.  Die: Hertz' a^2 = R* h; for a contact that has flowed, Storakers'
+ * radius at its deepest overlap, which does not shrink on unloading.  P3 (2), (17). */
 
 /* Overlap of a pair in a die, d. */
 static double overlap_of(const struct gb_state *state, int64_t k)
@@ -38,7 +39,8 @@ static double overlap_of(const struct gb_state *state, int64_t k)
     return state->radius[i] + state->radius[j] - gb_vec_length(r);
 }
 
-/* Of a pair in a periodic cell: distance of the centres, d; deepest > 0: of its bridge. */
+/* Contact radius of a pair in a periodic cell. distance: of the centres, d; deepest >
+ * 0: deepest overlap of its bridge. */
 static double state_radius_of(const struct gb_state *state, const struct gb_model *model,
                               const int32_t pair[2], double distance, double deepest)
 {
@@ -52,7 +54,8 @@ static double state_radius_of(const struct gb_state *state, const struct gb_mode
     return gb_law_unequal_radius(&law, deepest > 0.0 ? bridge : overlap);
 }
 
-/* deepest: of a contact that has flowed, what it keeps; else the contact is elastic. */
+/* Contact radius of a pair in a die.  A contact that has flowed uses `deepest`, an
+ * elastic one `overlap`. */
 static double bed_radius(const struct gb_state *state, const struct gb_bed_law *law,
                          int64_t k, double overlap, double deepest)
 {
@@ -64,8 +67,8 @@ static double bed_radius(const struct gb_state *state, const struct gb_bed_law *
     return gb_bed_batch_radius(law, star, flowed ? deepest : fmax(overlap, 0.0));
 }
 
-/* Of all pairs of a die that was made of this record.  Errors: GB_ERR_MEMORY, GB_ERR_INPUT
- * for an item that is missing. */
+/* Fills the contact radii of a die from its record.  Errors: GB_ERR_MEMORY,
+ * GB_ERR_INPUT for a missing item. */
 static bool state_source_state_radius_fill(struct gb_state *state,
                                            const struct gb_record *record,
                                            const struct gb_params *params,
@@ -95,12 +98,12 @@ struct gb_state_source {
     const struct gb_record *record;
     const struct gb_model *model;
     const struct gb_record_item *pair, *force;
-    const struct gb_record_item *history; /* the first number of a row is the deepest */
+    const struct gb_record_item *history; /* first number of a row: deepest overlap */
     struct gb_cell cell;
     void *slab;
 };
 
-/* An item of that shape, or NULL. */
+/* The item if it has this shape; else NULL and err. */
 static const struct gb_record_item *item_of(const struct gb_record *record,
                                             const char *name, enum gb_record_type type,
                                             int64_t rows, int columns,
@@ -115,9 +118,9 @@ static const struct gb_record_item *item_of(const struct gb_record *record,
     return item;
 }
 
-/* The source of a state whose count, pair_count, cell, positions and radii are set; record
- * and model must outlive it.  Errors: GB_ERR_MEMORY, GB_ERR_INPUT for an item that is
- * missing or of another shape. */
+/* Creates the source of a state whose count, pair_count, cell, positions and radii are
+ * set; record and model must outlive it.  Errors: GB_ERR_MEMORY, GB_ERR_INPUT for an
+ * item that is missing or has another shape. */
 static bool state_source_create(struct gb_state *state, const struct gb_record *record,
                                 const struct gb_model *model, struct gb_error *err)
 {
@@ -231,7 +234,7 @@ static const struct {
 };
 enum { ARRAYS = sizeof arrays / sizeof arrays[0] };
 
-/* ARRAYS: it is an array of the particles. */
+/* Index of an array in the table; ARRAYS: an array of the particles. */
 static int row_of(size_t member)
 {
     int k = 0;
@@ -247,7 +250,7 @@ bool gb_state_record_has(const struct gb_state_source *source, size_t member)
            (row_of(member) < ARRAYS || gb_state_optional_has(source->record, member));
 }
 
-/* Rows begin .. end - 1 of an array that it has. */
+/* Computes rows begin .. end - 1 of an array that the source has. */
 static void state_source_fill(const struct gb_state *state, size_t member, int64_t begin,
                               int64_t end, void *to)
 {
@@ -285,7 +288,7 @@ static bool take(const struct gb_record *record, const char *name,
     return true;
 }
 
-/* The members of the point that this kind of scene measures. */
+/* Sets the members of the point that this kind of scene measures. */
 static bool take_point(const struct gb_record *record, const struct gb_model *model,
                        struct gb_state *state, struct gb_error *err)
 {
@@ -310,7 +313,7 @@ static bool count_contacts(struct gb_state *state, const struct gb_record *recor
     return true;
 }
 
-/* T of a scene with time. */
+/* T of a scene with time; NaN otherwise. */
 static double second_per_time(const struct gb_model *model)
 {
     const double second =
@@ -366,7 +369,7 @@ void gb_state_record_walls(struct gb_state *state, const struct gb_die *die)
     state->funnel_slope = die->funnel ? die->sine / die->cosine : 0.0;
 }
 
-/* Spheres of a bed in the box of the die, with their own radii. */
+/* Copies the spheres of a bed, with their own radii, into the box of the die. */
 static void copy_spheres(struct gb_state *state, const double (*position)[4],
                          const struct gb_die *die)
 {
@@ -382,7 +385,8 @@ static void copy_spheres(struct gb_state *state, const double (*position)[4],
     }
 }
 
-/* The die of the record, without a funnel, as points come after it. */
+/* Sets the die from the record.  It has no funnel, because points are recorded after
+ * filling. */
 static bool take_die(const struct gb_record *record, const struct gb_model *model,
                      struct gb_die *die, struct gb_error *err)
 {
@@ -399,7 +403,7 @@ static bool take_die(const struct gb_record *record, const struct gb_model *mode
     return true;
 }
 
-/* Whole forces of the walls on particles. */
+/* Sets the total forces of walls on particles. */
 static bool take_walls(struct gb_state *state, const struct gb_record *record,
                        const double (*position)[4], const struct gb_die *die,
                        struct gb_error *err)
@@ -441,7 +445,7 @@ static bool take_walls(struct gb_state *state, const struct gb_record *record,
     return done;
 }
 
-/* Whole forces from normal and shear parts. */
+/* Adds normal and shear parts to total forces. */
 static void join_forces(struct gb_state *state, double *const shear[3])
 {
     for (int64_t k = 0; k < state->pair_count; k++) {
@@ -458,7 +462,7 @@ static void join_forces(struct gb_state *state, double *const shear[3])
     }
 }
 
-/* The items of gb_bed_record that a picture needs. */
+/* Sets a die state from the items of gb_bed_record. */
 static bool fill_die(struct gb_state *state, const struct gb_record *record,
                      const struct gb_model *model, double *work, struct gb_error *err)
 {
@@ -518,7 +522,7 @@ static bool die_state(struct gb_state **out, const struct gb_record *record,
     return true;
 }
 
-/* The particles of a periodic cell; everything of its pairs by a source. */
+/* Sets the particles of a periodic cell and creates the source of its pairs. */
 static bool fill_cell(struct gb_state *state, const struct gb_record *record,
                       const struct gb_params *params, const struct gb_model *model,
                       struct gb_error *err)
@@ -564,7 +568,7 @@ static bool cell_state(struct gb_state **out, const struct gb_record *record,
     return true;
 }
 
-/* All arrays of the source in memory. */
+/* Copies all arrays of the source to memory. */
 static bool take_pairs(struct gb_state *state, const struct gb_record *record,
                        struct gb_error *err)
 {

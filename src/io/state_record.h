@@ -6,35 +6,37 @@
 #include "pack/die/die.h"
 #include "scene/model.h"
 
-/* The packing that a record was taken of, for pictures and other programs.  Touches no
- * experiment: it can be made in another thread. */
+/* The packing of a record, for pictures and other programs.  It uses no experiment, so
+ * it may run in another thread. */
 bool gb_state_record(struct gb_state **out, const struct gb_record *record,
                      const struct gb_params *params, const struct gb_model *model,
                      struct gb_error *err);
 
-/* Walls of a die, and half the width of the box around them and what lies beside the bore. */
+/* Sets the walls of a die, and the box around them with the space next to the bore. */
 void gb_state_record_walls(struct gb_state *state, const struct gb_die *die);
 double gb_state_record_half_width(const double (*position)[4], int64_t count,
                                   const struct gb_die *die);
-/* Axes along which a scene is pressed, and the constants of its attraction. */
+/* Sets the axes along which a scene is pressed and the constants of its attraction. */
 void gb_state_record_model(struct gb_state *state, const struct gb_model *model);
 
-/* The same for gb_state_write alone: what is written row by row is not copied.  The record
- * must stay as it is until the state is destroyed. */
+/* The same for gb_state_write only: arrays that are written row by row are not copied.
+ * The record must not change until the state is destroyed. */
 bool gb_state_record_to_write(struct gb_state **out, const struct gb_record *record,
                               const struct gb_params *params,
                               const struct gb_model *model, struct gb_error *err);
 
-/* The pairs and the optional arrays of a periodic cell, made of the record of a run row by
- * row, so that a state is written without a copy of them. */
+/* The pairs and optional arrays of a periodic cell, generated row by row from the
+ * record of a run, so that a state is written without copying them. */
 struct gb_state_source;
 
 void gb_state_record_destroy(struct gb_state_source *source); /* NULL is fine */
 
-/* Arrays are named by the offset of their pointer in gb_state; a NULL source has none. */
+/* Has the source the array whose pointer is at this offset of gb_state?  A NULL source
+ * has none. */
 bool gb_state_record_has(const struct gb_state_source *source, size_t member);
 
-/* The same in memory of the source, until the next call: as many as gb_hdf_slab_rows. */
+/* Rows of this array in memory of the source, valid until the next call; at most
+ * gb_hdf_slab_rows. */
 const void *gb_state_record_rows(const struct gb_state *state, size_t member,
                                  int64_t begin, int64_t end);
 

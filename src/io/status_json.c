@@ -14,7 +14,9 @@
 #include "greenbody/stage.h"
 #include "io/point_columns.h"
 
-/* Words for the stages of a run, for screens and status.json. */
+/* Words for the stages of a die run, for the screen and status.json.  The second part
+ * of this file prints JSON, writes status.json, and reads it with limits, since the
+ * file is not trusted. */
 
 static const char *const names[GB_STAGES] = {
     [GB_STAGE_NONE] = "",
@@ -33,7 +35,8 @@ static const char *const names[GB_STAGES] = {
     [GB_STAGE_EJECTED] = "rest outside",
 };
 
-/* Quantity, and the unit of value and goal; GB_DIM_NONE: a multiple of a limit. */
+/* Names of the quantities, and units of value and goal; GB_DIM_NONE: a multiple of a
+ * limit. */
 static const struct {
     const char *quantity;
     enum gb_dimension dimension;
@@ -102,7 +105,7 @@ char *gb_status_json_stage_value(const struct gb_stage_report *report, char *tex
         gb_units_format_short(report->value, dimension, 3, value, sizeof value);
         gb_units_format_short(report->goal, dimension, 3, goal, sizeof goal);
         snprintf(text, size, "%s of %s", value, goal);
-        if (!(report->goal > 0.0)) { /* it falls to none */
+        if (!(report->goal > 0.0)) { /* falls to 0 */
             snprintf(text, size, "%s", value);
         }
     } else if (report->measure != GB_STAGE_MEASURE_NONE) {
@@ -118,7 +121,7 @@ char *gb_status_json_stage_line(const struct gb_stage_report *report, char *text
     char value[112];
     gb_status_json_stage_value(report, value, sizeof value);
     const bool named = measures[report->measure].dimension == GB_DIM_NONE &&
-                       value[0] != '\0'; /* a unit names the quantity */
+                       value[0] != '\0'; /* the unit shows the quantity */
     snprintf(text, size, "%s%s%s%s%s", gb_status_json_stage_name(report->stage),
              value[0] != '\0' ? ": " : "",
              named ? stage_text_quantity(report->measure) : "", named ? " " : "", value);
@@ -137,7 +140,7 @@ const char *gb_status_json_word(enum gb_run_state state)
     return (size_t)state < G_N_ELEMENTS(state_words) ? state_words[state] : "unknown";
 }
 
-/* Brackets outside of strings. */
+/* Are brackets outside strings nested no deeper than in a status file? */
 static bool is_shallow(const char *text, size_t length)
 {
     int depth = 0, deepest = 0;
@@ -145,7 +148,7 @@ static bool is_shallow(const char *text, size_t length)
     for (size_t i = 0; i < length; i++) {
         if (quoted) {
             quoted = text[i] != '"';
-            i += text[i] == '\\'; /* and the character that it escapes */
+            i += text[i] == '\\'; /* skips the escaped character */
         } else if (text[i] == '"') {
             quoted = true;
         } else if (text[i] == '{' || text[i] == '[') {
@@ -199,8 +202,9 @@ enum gb_run_state gb_status_json_state(const char *word)
     return GB_RUN_STOPPED;
 }
 
-/* json-glib appends ".0" to a number without a point, also to one with an exponent.  Outside
- * strings this is the only place where digits that follow an 'e' are followed by a point. */
+/* Repairs numbers: json-glib appends ".0" to a number without a point, even after an
+ * exponent.  Outside strings, this is the only place where a point follows an exponent.
+ */
 char *gb_status_json_print(JsonNode *root)
 {
     char *text = json_to_string(root, TRUE);
@@ -225,7 +229,7 @@ char *gb_status_json_print(JsonNode *root)
     return text;
 }
 
-/* A number, or null where it is not finite. */
+/* Adds a number, or null if it is not finite. */
 static void add_double(JsonBuilder *json, const char *name, double value)
 {
     json_builder_set_member_name(json, name);
@@ -242,7 +246,7 @@ static void add_integer(JsonBuilder *json, const char *name, int64_t value)
     json_builder_add_int_value(json, value);
 }
 
-/* JSON is UTF-8; paths in an error may be anything. */
+/* Adds a text as valid UTF-8; paths in an error may contain any bytes. */
 static void add_text(JsonBuilder *json, const char *name, const char *text)
 {
     char *valid = g_utf8_make_valid(text, -1);
@@ -266,7 +270,7 @@ static void add_array(JsonBuilder *json, const char *name, const double *values,
     json_builder_end_array(json);
 }
 
-/* Of a run in a die: values in SI, as far as they are known. */
+/* Adds the stage of a die run: the known values in SI units. */
 static void add_stage(JsonBuilder *json, const struct gb_stage_report *stage)
 {
     json_builder_set_member_name(json, "stage");

@@ -19,13 +19,14 @@
 #include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
 
-/* A file that grows by whole lines.  A checkpoint syncs it and keeps its length and checksum;
- * a resumed run checks these and drops what follows. */
+/* A file to which whole lines are appended.  A checkpoint syncs it and records its
+ * length and checksum.  A resumed run checks these and drops everything after that
+ * length. */
 struct lines {
     char *path;
     int fd;
-    off_t length; /* of the whole lines so far */
-    uint64_t sum; /* FNV-1a over them */
+    off_t length; /* of the complete lines so far */
+    uint64_t sum; /* FNV-1a of these lines */
 };
 
 struct gb_store {
@@ -36,7 +37,7 @@ struct gb_store {
     int64_t points;
 };
 
-/* Makes the file, which must not exist.  close_lines follows in any case. */
+/* Creates the file, which must not exist. close_lines must be called in any case. */
 static bool create_lines(struct lines *lines, const char *directory, const char *name,
                          struct gb_error *err)
 {
@@ -47,8 +48,8 @@ static bool create_lines(struct lines *lines, const char *directory, const char 
                                           lines->path, g_strerror(errno));
 }
 
-/* Adds the first `length` bytes of the file to length and checksum; false unless they are
- * whole lines. */
+/* Adds the first `length` bytes of the file to length and checksum.  False unless they
+ * are whole lines. */
 static bool read_lines(struct lines *lines, off_t length)
 {
     char part[1 << 16], last = '\n';
@@ -68,7 +69,7 @@ static bool read_lines(struct lines *lines, off_t length)
     return last == '\n';
 }
 
-/* Opens a file that was written before and reads its first `length` bytes. */
+/* Opens an existing file and reads its first `length` bytes. */
 static bool reopen_lines(struct lines *lines, const char *directory, const char *name,
                          off_t length, struct gb_error *err)
 {
@@ -104,7 +105,8 @@ static bool write_error(const struct lines *lines, struct gb_error *err)
                         g_strerror(errno));
 }
 
-/* Appends text, or leaves the file as it was: a full disk must not leave half a row. */
+/* Appends text, or leaves the file as it was, so that a full disk leaves no partial
+ * row. */
 static bool append_lines(struct lines *lines, const char *text, struct gb_error *err)
 {
     const size_t size = strlen(text);
@@ -116,7 +118,7 @@ static bool append_lines(struct lines *lines, const char *text, struct gb_error 
     return true;
 }
 
-/* Drops what follows the lines that were read. */
+/* Truncates the file after the lines that were read. */
 static bool cut_lines(const struct lines *lines, struct gb_error *err)
 {
     return ftruncate(lines->fd, lines->length) == 0 || write_error(lines, err);
@@ -138,7 +140,7 @@ static bool write_curve_head(struct lines *curve, const struct gb_params *params
 
 static const char packing_name[] = "structure.csv";
 
-/* The packing that the run begins with, beside the preset, which then names this copy. */
+/* Copies the initial packing next to the preset, which then names the copy. */
 static bool write_packing(const char *directory, struct gb_params *params,
                           struct gb_error *err)
 {
@@ -155,7 +157,8 @@ static bool write_packing(const char *directory, struct gb_params *params,
     return ok;
 }
 
-/* A complete preset written without a file before it names the program's version. */
+/* Writes a complete preset.  Presets that were not read from a file name the version of
+ * the program. */
 static bool write_preset(const char *directory, const struct gb_params *params,
                          struct gb_error *err)
 {
@@ -172,8 +175,8 @@ static bool write_preset(const char *directory, const struct gb_params *params,
     return ok;
 }
 
-/* Replaced files are written by the held path: the other one may name another directory
- * by now. */
+/* Paths of replaced files use the held path, because the original path may name another
+ * directory by now. */
 static void name_files(struct gb_store *store)
 {
     const char *held = store->dir.held;
@@ -197,7 +200,7 @@ bool gb_store_create(struct gb_store **out, const char *directory,
     if (!write_preset(directory, params, err) ||
         !create_lines(&store->curve, directory, "curve.csv", err) ||
         !create_lines(&store->events, directory, "events.log", err) ||
-        !write_curve_head(&store->curve, params, err)) { /* synced with the first state */
+        !write_curve_head(&store->curve, params, err)) { /* the first state syncs it */
         gb_store_discard(store);
         return false;
     }
@@ -250,7 +253,7 @@ bool gb_store_check_curve(const char *directory, const struct gb_store_extent *e
     return same;
 }
 
-/* Empty files as after gb_store_create: rows without a checkpoint are dropped. */
+/* Empties the files as after gb_store_create: rows without a checkpoint are dropped. */
 static bool begin_rows(struct gb_store *store, const struct gb_params *params,
                        struct gb_error *err)
 {
@@ -353,8 +356,8 @@ bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
     return ok;
 }
 
-/* A second name for the state that is about to be replaced.  Without one (a file system
- * that has no links) verify repeats the run from its beginning. */
+/* Makes a second link to the state that is about to be replaced.  On a file system
+ * without links `verify` repeats the run from its beginning. */
 static void keep_before(const struct gb_store *store)
 {
     if (g_file_test(store->state_path, G_FILE_TEST_IS_REGULAR)) {
