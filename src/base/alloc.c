@@ -5,18 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From LARGE bytes on the system hands out zeroed pages: those that are never written are
- * not resident. */
+/* Larger blocks are zeroed by the system, which makes only the pages resident that are
+ * written. */
 enum { ALIGNMENT = 64, LARGE = 1 << 20 };
 
-/* The size of a block stands in the line before it, so that freeing can keep the count,
- * and where its memory begins. */
+/* Head of a block, in the cache line before it: its size, to count freed bytes, and the
+ * start of its memory. */
 struct head {
     _Alignas(ALIGNMENT) size_t bytes;
     void *memory;
 };
 
-/* The only mutable state of this layer: the test hook and the count it reports. */
+/* Mutable state: the test hook and the count of bytes. */
 static _Atomic long fail_countdown;
 static _Atomic size_t bytes_held;
 
@@ -25,7 +25,7 @@ static bool must_fail(void)
     return atomic_load(&fail_countdown) > 0 && atomic_fetch_sub(&fail_countdown, 1) == 1;
 }
 
-/* Zeroed lines with their head; NULL: no memory. */
+/* Allocates zeroed lines with their head; NULL: out of memory. */
 static struct head *allocate(size_t total)
 {
     const bool large = total >= LARGE;

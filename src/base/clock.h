@@ -1,9 +1,9 @@
 #ifndef GB_BASE_CLOCK_H
 #define GB_BASE_CLOCK_H
 
-/* The clocks of the program, in seconds.  Only differences have a meaning. */
+/* Clocks, in seconds.  Only differences are meaningful. */
 
-/* Elapsed time; no change of the date moves it. */
+/* Monotonic elapsed time; setting the date does not affect it. */
 double gb_clock_s(void);
 
 /* Processor time of the calling thread, and of all threads of the process. */

@@ -54,7 +54,7 @@ static bool load(int file, const char *path, size_t most, char **text, size_t *l
     return true;
 }
 
-/* Not blocking, so that a fifo is refused instead of waited for. */
+/* O_NONBLOCK: a fifo is refused instead of waiting for its writer */
 int gb_file_open(const char *path, struct gb_error *err)
 {
     struct stat info = {0};
@@ -83,14 +83,14 @@ bool gb_file_read(const char *path, size_t most, char **text, size_t *length,
     return good;
 }
 
-/* What comes after the last colon. */
+/* The part of GLib's message after the last colon. */
 const char *gb_file_reason(const GError *error)
 {
     const char *colon = strrchr(error->message, ':');
     return colon != NULL && colon[1] == ' ' ? colon + 2 : error->message;
 }
 
-/* The only mutable state of this file: the test hook. */
+/* Mutable state: the test hook. */
 static _Atomic long fail_countdown;
 
 long gb_file_fail_after(long k)
@@ -108,7 +108,7 @@ bool gb_file_may_write(void)
     return !fails;
 }
 
-/* The test hook behaves as a full disk. */
+/* write(2), or failure of the test hook, which acts like a full disk. */
 static ssize_t write_some(int fd, off_t at, const char *data, size_t size)
 {
     const bool may = gb_file_may_write();
@@ -180,7 +180,7 @@ bool gb_file_replace(const char *path, const void *data, size_t size,
     return false;
 }
 
-/* After this the new name survives a loss of power. */
+/* Syncs a folder, so that a new name in it survives a power failure. */
 static bool sync_folder(const char *path)
 {
     char *folder = g_path_get_dirname(path);
@@ -204,7 +204,7 @@ bool gb_file_replace_by(const char *path, const char *temporary, int fd, size_t 
         return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
                             g_strerror(errno));
     }
-    (void)sync_folder(path); /* some file systems sync no folders */
+    (void)sync_folder(path); /* some file systems cannot sync folders */
     return true;
 }
 

@@ -1,7 +1,7 @@
-/* A table that is filled and written.  Every cell is kept as the text that CSV, Markdown and
- * aligned text print; JSON reads numbers back from it, so all formats have the same digits.
- * The cells of all rows are in one string, each with a NUL at its end: a packing has
- * millions. */
+/* A table that is filled and then written.  Every cell is kept as the text for CSV,
+ * Markdown and aligned text; JSON converts this text back to numbers, so all formats
+ * have the same digits.  The cells of all rows are in one string, each terminated by a
+ * NUL, because the table of a packing has millions of cells. */
 #include "base/listing.h"
 
 #include <inttypes.h>
@@ -27,8 +27,8 @@ struct gb_listing {
     GArray *note;   /* struct note, by row */
     GString *head;  /* comments above the names */
     GString *cells;
-    size_t count; /* of cells */
-    bool quote;   /* everything in CSV */
+    size_t count; /* number of cells */
+    bool quote;   /* quote every CSV cell */
 };
 
 static void clear_column(void *column)
@@ -76,7 +76,8 @@ static bool is_text(const struct column *column)
     return strchr(column->format, 's') != NULL;
 }
 
-/* --- filling -------------------------------------------------------------------------- */
+/* --- filling
+ * -------------------------------------------------------------------------- */
 
 void gb_listing_comment(struct gb_listing *listing, const char *lines)
 {
@@ -166,12 +167,13 @@ void gb_listing_text(struct gb_listing *listing, const char *text)
     end_cell(listing);
 }
 
-/* --- writing -------------------------------------------------------------------------- */
+/* --- writing
+ * -------------------------------------------------------------------------- */
 
-/* The cells of a listing in their order. */
+/* Position while writing the cells in order. */
 struct walk {
     const struct gb_listing *listing;
-    const char *cell; /* the next */
+    const char *cell; /* next cell */
     size_t row;
 };
 
@@ -248,7 +250,8 @@ static void append_json_text(GString *text, const char *cell)
     g_string_append_c(text, '"');
 }
 
-/* Numbers with 17 digits, those without an exponent with a point; integers as they are. */
+/* Prints a number with 17 digits, with a point if it has no exponent.  Integers are
+ * printed unchanged. */
 static void append_json_number(GString *text, const char *cell, bool integer)
 {
     char number[G_ASCII_DTOSTR_BUF_SIZE];
@@ -325,7 +328,7 @@ static void append_aligned(GString *text, const char *cell, size_t width, bool l
     g_string_append(text, last ? "\n" : "  ");
 }
 
-/* Texts on the left, numbers on the right of columns as wide as their widest cell. */
+/* Aligned columns, as wide as their widest cell: texts left, numbers right. */
 static void print_text(struct walk *walk, GString *text)
 {
     const struct gb_listing *listing = walk->listing;

@@ -8,8 +8,9 @@
 
 #include "greenbody/status.h"
 
-/* A table that a command or a study fills and writes.  First the columns, then the cells
- * row by row; a row ends with its last column.  base/table.h reads such tables back.
+/* A table that a command or a study fills and writes.  Define the columns first, then
+ * fill the cells row by row; a row ends with its last column. base/table.h reads such
+ * tables back.
  *
  *     struct gb_listing *listing = gb_listing_new();
  *     gb_listing_comment(listing, "greenbody " GB_VERSION);
@@ -17,8 +18,7 @@
  *     gb_listing_columns(listing, "%.8g", "step,ratio");
  *     gb_listing_text(listing, "verlet");
  *     gb_listing_numbers(listing, (const double[]){0.1, 0.98}, 2);
- *     GString *text = gb_listing_end(listing, GB_LISTING_CSV);
- */
+ *     GString *text = gb_listing_end(listing, GB_LISTING_CSV); */
 struct gb_listing;
 
 enum gb_listing_format {
@@ -31,38 +31,37 @@ enum gb_listing_format {
 struct gb_listing *gb_listing_new(void);
 void gb_listing_free(struct gb_listing *listing); /* NULL is fine */
 
-/* Adds lines of comment above the table.  Empty lines are left out.  NULL is fine. */
+/* Adds comment lines above the table.  Empty lines are omitted.  NULL is fine. */
 void gb_listing_comment(struct gb_listing *listing, const char *lines);
 
-/* Adds a line of comment above the next row, or below the last.  Only CSV has comments. */
+/* Adds a comment line above the next row, or after the last row.  CSV only. */
 void gb_listing_note(struct gb_listing *listing, const char *line);
 
-/* CSV gets every name and every cell in quotes, as spreadsheets write it. */
+/* Quotes every name and cell in CSV, as spreadsheets do. */
 void gb_listing_quote(struct gb_listing *listing);
 
-/* Adds columns: names separated by commas, or one name by a printf format.
+/* Adds columns: names separated by commas, or one name from a printf format.
  *
  * format  how cells are printed, a constant.  Numbers: a printf format for one double, as
- *         "%.8g", or "" for all its digits; "%.0f" for integers.  Texts: "%s", or
- *         "\"%s\"" for quotes in CSV also where they are not needed, or "`%s`" for code in
- *         Markdown. */
+ *         "%.8g", or "" for all digits; "%.0f" for integers.  Texts: "%s"; "\"%s\"" to
+ *         quote always in CSV; "`%s`" for code in Markdown. */
 void gb_listing_columns(struct gb_listing *listing, const char *format,
                         const char *names);
 void gb_listing_column(struct gb_listing *listing, const char *format, const char *name,
                        ...) G_GNUC_PRINTF(3, 4);
 
-/* Fill the next cell.  A number that is not finite, and NULL, is missing. */
+/* Fill the next cell.  A number that is not finite and a NULL text are missing cells. */
 void gb_listing_number(struct gb_listing *listing, double value);
 void gb_listing_numbers(struct gb_listing *listing, const double *value, size_t count);
 void gb_listing_whole(struct gb_listing *listing, uint64_t value);
 void gb_listing_text(struct gb_listing *listing, const char *text);
 
-/* The text of a listing (g_string_free); _end frees the listing as well. */
+/* Returns the text of a listing (g_string_free); _end also frees the listing. */
 GString *gb_listing_print(const struct gb_listing *listing,
                           enum gb_listing_format format);
 GString *gb_listing_end(struct gb_listing *listing, enum gb_listing_format format);
 
-/* Replaces DIRECTORY/NAME by the listing as CSV, as a whole, and frees the listing.  Errors: of
+/* Replaces DIRECTORY/NAME by the listing as CSV and frees the listing.  Errors: see
  * gb_file_replace. */
 bool gb_listing_store(struct gb_listing *listing, const char *directory, const char *name,
                       struct gb_error *err);

@@ -3,9 +3,9 @@
 
 #include "base/vec.h"
 
-/* Matrices of three rows as plain arrays. */
+/* 3x3 matrices as arrays of three rows. */
 
-/* out = a x; out is not x */
+/* out = a x; out must not be x */
 static inline void gb_mat_apply(const double a[3][3], const double x[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -13,7 +13,7 @@ static inline void gb_mat_apply(const double a[3][3], const double x[3], double 
     }
 }
 
-/* out = a b; out is neither a nor b */
+/* out = a b; out must be neither a nor b */
 static inline void gb_mat_product(const double a[3][3], const double b[3][3],
                                   double out[3][3])
 {

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Rounding of what is round already. */
+/* Relative tolerance for a value that is already round. */
 static const double rounding = 1e-9;
 
 double gb_number_round_below(double max)
@@ -42,15 +42,15 @@ double gb_number_nearest_step(double rough)
     return (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0) * decade;
 }
 
-/* The fast method needs numbers of 64 bits between double and decimal: 17 digits have
- * 57. */
+/* The fast method needs a type with a 64-bit mantissa: numbers of 17 decimal digits
+ * have 57 bits. */
 #if LDBL_MANT_DIG >= 64
 enum { FAST = 1 };
 #else
 enum { FAST = 0 };
 #endif
 
-enum { DIGITS = 17, POWER_MOST = 27 }; /* 5^27 is the last power of 63 bits or less */
+enum { DIGITS = 17, POWER_MOST = 27 }; /* 5^27 has 63 bits */
 
 /* 10^power, exact. */
 static long double power_of_ten(int power)
@@ -77,7 +77,7 @@ static double neighbour(double positive, bool above)
     return positive;
 }
 
-/* The nearest whole number, halves upwards: roundl of a number from 0 to below 2^62. */
+/* The nearest integer, halves upwards: roundl for numbers from 0 to below 2^62. */
 static uint64_t nearest(long double value)
 {
     const long long even = llrintl(value);
@@ -86,9 +86,9 @@ static uint64_t nearest(long double value)
 
 enum answer { NO, YES, UNSURE };
 
-/* Does digits x 10^power read as value?  One correctly rounded operation of 64 bits
- * decides it, unless the result lies so close to the middle of two doubles that double
- * rounding could differ. */
+/* Does digits x 10^power read as value?  One correctly rounded 64-bit operation decides
+ * it, unless the result is so close to the middle of two doubles that double rounding
+ * could matter. */
 static enum answer reads_as(uint64_t digits, int power, double value)
 {
     const long double near = scale((long double)digits, power);
@@ -105,8 +105,8 @@ static enum answer reads_as(uint64_t digits, int power, double value)
     return read == value ? YES : NO;
 }
 
-/* Digits of a positive number with the power of the last one; how many there are, or 0
- * when printf has to do it. */
+/* Finds the digits of a positive number and the power of the last one.  Returns their
+ * number, or 0 if printf must do it. */
 static int find_digits(double value, uint64_t *digits, int *power)
 {
     int exponent = (int)floor(log10(value));
@@ -115,13 +115,13 @@ static int find_digits(double value, uint64_t *digits, int *power)
     }
     *power = exponent - (DIGITS - 1);
     const long double whole = scale((long double)value, -*power);
-    if (!(whole >= 1e16L && whole < 1e17L)) { /* rounding of log10 */
+    if (!(whole >= 1e16L && whole < 1e17L)) { /* log10 was rounded to the wrong decade */
         return 0;
     }
     for (int more = 2; more >= 0; more--) {
         const long double unit = power_of_ten(more);
         const uint64_t some = nearest(whole / unit);
-        /* farther off than a whole last bit of a double: not the same one */
+        /* off by more than the last bit of a double: another number */
         if (fabsl((long double)some * unit - whole) > whole * 0x1p-52L) {
             continue;
         }
@@ -143,11 +143,12 @@ static char *put(char *to, const char *from, int count, char fill)
     return to;
 }
 
-/* As %g does: powers of ten below -4 or beyond the digits are written as such. */
+/* Writes the digits like %g, with an exponent below -4 or beyond the precision. */
 static void lay_out(const char *digit, int count, int exponent, int precision, char *to)
 {
     const bool plain = exponent >= -4 && exponent < precision;
-    const int before = !plain ? 1 : MIN(count, MAX(exponent + 1, 0)); /* the point */
+    const int before =
+        !plain ? 1 : MIN(count, MAX(exponent + 1, 0)); /* left of the point */
     to = before > 0 ? put(to, digit, before, 0) : put(to, NULL, 1, '0');
     to = put(to, NULL, plain && exponent >= count ? exponent + 1 - count : 0, '0');
     if (count > before) {
@@ -198,12 +199,12 @@ char *gb_number_write(double value, char buffer[GB_NUMBER_MAX])
     return buffer;
 }
 
-/* Values with an error are written without a power of ten from 1e-4 to below 1e6, as by
- * printf's %g. */
+/* Range of exponents in which a value with an error has no power of ten: 1e-4 to below
+ * 1e6, as in %g. */
 enum { PLAIN_LOWEST = -4, PLAIN_HIGHEST = 5 };
 
-/* Decimals that give a positive error its significant digits once it is rounded; negative:
- * zeros before the point. */
+/* Number of decimals that shows `digits` significant digits of a positive error after
+ * rounding.  Negative: zeros before the point. */
 static int decimals_of(double error, int digits)
 {
     char text[GB_NUMBER_MAX];
@@ -211,7 +212,7 @@ static int decimals_of(double error, int digits)
     return digits - 1 - (int)g_ascii_strtoll(strchr(text, 'e') + 1, NULL, 10);
 }
 
-/* Rounded to a decimal place, which may stand before the point; no "-0". */
+/* Rounds to a decimal place, which may be before the point; avoids "-0". */
 static double round_to(double value, int decimals)
 {
     const double unit = pow(10.0, -decimals);

@@ -3,13 +3,15 @@
 
 #include <math.h>
 
-/* Functions of the C library whose last bit a processor or a version does not change.
- * glibc has exp, log, pow, sin, cos and more twice, with fused multiply-add and without,
- * and picks by the processor; its functions of long double have one form.  Their 11 bits
- * more make the rounded result the correct one in all but some of a thousand million
- * arguments, so that other libraries agree as well.  sqrt is exact everywhere.
+/* Functions of the C library with results that do not depend on the processor or the
+ * version of the library. glibc has two versions of exp, log, pow, sin, cos and others,
+ * with and without fused multiply-add, and chooses by the processor.  Its long double
+ * functions have one version.  Their 11 extra bits make the rounded result correct
+ * except for a few arguments in a thousand million, so other libraries agree as well.
+ * sqrt is exact everywhere.
  *
- * They cost 50 to 200 ns: for what results depend on, outside of loops over contacts. */
+ * They take 50 to 200 ns.  Use them for values that affect results, outside loops over
+ * contacts. */
 static inline double gb_portable_exp(double x)
 {
     return (double)expl((long double)x);

@@ -1,25 +1,25 @@
 #ifndef GB_BASE_PROGRAM_H
 #define GB_BASE_PROGRAM_H
 
-/* The program's own file, and what stands beside it.
+/* Paths of the program's own file and of the files next to it.
  *
- * Under the launcher of a bundle the running file is the bundle's
- * loader, a copy named like the program in libexec/, with a link `launcher` beside it. */
+ * In a bundle the running file is the loader of the bundle: a copy in libexec/ with the
+ * name of the program, next to a link `launcher`. */
 
-/* Folder of the running file, links resolved, in newly allocated memory (g_free); NULL
- * where /proc is missing. */
+/* Folder of the running file, with links resolved (g_free); NULL without /proc. */
 char *gb_program_folder(void);
 
-/* Folder of the file that this code was loaded from: libgreenbody in another
- * program, the running file otherwise (g_free); NULL where the loader does not say. */
+/* Folder of the file from which this code was loaded: libgreenbody in another program,
+ * otherwise the running file (g_free).  NULL if the loader does not report it. */
 char *gb_program_library_folder(void);
 
-/* File to execute for another process of this program (g_free): the launcher of a bundle,
- * else /proc/self/exe, which also names a file that was replaced since the start. */
+/* File to execute to start another process of this program (g_free): the launcher of a
+ * bundle, else /proc/self/exe, which remains valid if the file was replaced since the
+ * start. */
 char *gb_program_executable(void);
 
-/* Names the process like the program, which /proc/self/exe would call "exe": for ps, pgrep
- * and killall. */
+/* Sets the process name to the name of the program for ps, pgrep and killall; started
+ * by /proc/self/exe it would be "exe". */
 void gb_program_name_process(void);
 
 #endif

@@ -48,7 +48,7 @@ const struct gb_record_item *gb_record_find(const struct gb_record *record,
     return NULL;
 }
 
-/* What an item holds, and how. */
+/* Type of the numbers of an item. */
 struct content {
     enum gb_record_type type;
     bool f32;
@@ -76,7 +76,7 @@ static struct gb_record_item *add(struct gb_record *record, const char *name,
     const size_t bytes = gb_record_bytes(item);
     if (!item->data || bytes > item->room) {
         gb_alloc_free(item->data);
-        item->room = bytes + bytes / 16; /* the number of contacts grows during a run */
+        item->room = bytes + bytes / 16; /* room for more contacts */
         item->data = gb_alloc_array(item->room + 1, 1, err);
         if (!item->data) {
             item->room = 0;
@@ -132,7 +132,7 @@ bool gb_record_rows(const struct gb_record *record, const char *name,
     return true;
 }
 
-/* Any other byte in a bool is undefined behaviour. */
+/* Checks that bools are 0 or 1; any other byte in a bool is undefined behaviour. */
 static bool check_bools(const struct gb_record_item *item)
 {
     const unsigned char *byte = item->data;
@@ -144,7 +144,7 @@ static bool check_bools(const struct gb_record_item *item)
     return true;
 }
 
-/* The item if it has that shape, else NULL. */
+/* The item if it has this shape; else NULL and err. */
 static const struct gb_record_item *item_to_load(const struct gb_record *record,
                                                  const char *name,
                                                  enum gb_record_type type, int64_t rows,
@@ -228,7 +228,7 @@ bool gb_record_members(struct gb_record *record, const struct gb_record_member *
     return true;
 }
 
-/* A copy of an item under another name. */
+/* Copies an item under another name. */
 static bool add_copy(struct gb_record *record, const char *name,
                      const struct gb_record_item *from, struct gb_error *err)
 {
@@ -278,7 +278,7 @@ void gb_record_remove(struct gb_record *record, const char *prefix)
     record->count = kept;
 }
 
-/* Of two items of doubles, at least one of them of floats. */
+/* Compares two items of doubles, of which at least one is stored as floats. */
 static bool numbers_differ(const struct gb_record_item *a, const struct gb_record_item *b,
                            int64_t row)
 {
@@ -342,7 +342,7 @@ static uint64_t hash_word(uint64_t hash, uint64_t word)
     return hash ^ hash >> 32;
 }
 
-/* FNV-1a by words of eight bytes: byte by byte it would take as long as writing the
+/* FNV-1a over words of eight bytes.  Byte by byte it would take as long as writing the
  * file. */
 static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 {
@@ -356,7 +356,7 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
     return gb_record_fnv(hash, byte + i, size - i);
 }
 
-/* An f32 item hashes as the doubles of its file. */
+/* Hashes an item; an f32 item hashes as the doubles that its file contains. */
 static uint64_t hash_content(uint64_t hash, const struct gb_record_item *item)
 {
     if (!item->f32) {

@@ -18,8 +18,8 @@ bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format,
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    /* one line that cannot drive the terminal, whatever file it quotes; what vsnprintf cut off
-     * is behind the end of the message */
+    /* one line without control characters, whatever file it quotes; only characters
+     * that vsnprintf cut off beyond the end of the message are incomplete */
     gb_visible_copy(err->text, sizeof err->text, text);
     err->code = code;
     return false;

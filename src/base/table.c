@@ -10,13 +10,13 @@
 
 struct gb_table {
     char *path;
-    char *text; /* names and words; of a file: cut into lines and cells in place */
+    char *text; /* names and words; a file is cut into lines and cells in place */
     size_t length;
     size_t columns, rows;
     char *name[GB_TABLE_COLUMNS_MAX]; /* into text */
-    size_t words;                     /* column of words; columns: none */
-    size_t units;                     /* column of units beside it, which is skipped */
-    size_t wholes;                    /* column of whole numbers; columns: none */
+    size_t words;                     /* index of the column of words; columns: none */
+    size_t units;                     /* index of their units, which are skipped */
+    size_t wholes;                    /* index of the column of whole numbers, likewise */
     double *value;                    /* columns x rows */
     uint64_t *whole;                  /* rows; NULL without whole numbers */
     char **word;                      /* rows, into text; NULL without words */
@@ -35,7 +35,7 @@ static size_t text_length(const struct gb_table_content *content)
     return length;
 }
 
-/* Copies a string behind the text. */
+/* Appends a copy of a string to the text. */
 static char *append(struct gb_table *table, const char *text)
 {
     char *at = table->text + table->length;
@@ -115,26 +115,26 @@ void gb_table_keep(struct gb_table *table, const char *word)
     table->rows = kept;
 }
 
-/* Written by editors of other systems in front of UTF-8. */
+/* Some editors write this before UTF-8 text. */
 static const char byte_order_mark[] = "\xef\xbb\xbf";
 
 static const char blanks[] = " \t\r";
 
-/* Place in the file. */
+/* Position in the file. */
 struct cursor {
     char *next, *end;
     int line;
 };
 
-/* The next line that is neither empty nor a comment, cut off in place; NULL at the end.
- */
+/* The next line that is neither empty nor a comment, terminated in place; NULL at the
+ * end. */
 static char *next_line(struct cursor *at)
 {
     while (at->next < at->end) {
         char *line = at->next;
         char *stop = memchr(line, '\n', (size_t)(at->end - line));
         stop = stop ? stop : at->end;
-        *stop = '\0'; /* one byte of room after the end of the file */
+        *stop = '\0'; /* the text has one byte more than the file */
         at->next = stop + 1;
         at->line++;
         if (line[0] != '#' && line[strspn(line, blanks)] != '\0') {
@@ -144,7 +144,7 @@ static char *next_line(struct cursor *at)
     return NULL;
 }
 
-/* The next cell without blanks around it, cut off in place; NULL behind the last. */
+/* The next cell, trimmed and terminated in place; NULL after the last. */
 static char *next_cell(char **rest)
 {
     if (*rest == NULL) {
@@ -193,7 +193,7 @@ static bool read_header(struct gb_table *table, struct cursor *at, struct gb_err
     return true;
 }
 
-/* Upper bound of the rows, for the arrays. */
+/* Upper bound of the number of rows, to allocate the arrays. */
 static size_t count_lines(const struct cursor *at)
 {
     size_t lines = 0;
@@ -263,7 +263,7 @@ static bool read_row(struct gb_table *table, const struct cursor *at, char *rest
     return true;
 }
 
-/* Moves the columns together: stride `room` becomes the number of rows. */
+/* Compacts the columns: their stride shrinks from `room` to the number of rows. */
 static void close_gaps(struct gb_table *table, size_t room)
 {
     for (size_t k = 1; k < table->columns && room > table->rows; k++) {

@@ -14,7 +14,8 @@
 #include "base/clock.h"
 #include "greenbody/status.h"
 
-/* A thread inherits the signal mask under which it is created. */
+/* Blocks all signals while it creates the thread, because a thread inherits the signal
+ * mask. */
 bool gb_team_start_thread(pthread_t *thread, void *(*work)(void *data), void *data,
                           const char *what, struct gb_error *err)
 {
@@ -28,23 +29,24 @@ bool gb_team_start_thread(pthread_t *thread, void *(*work)(void *data), void *da
                                         strerror(failure));
 }
 
-/* A window spans several time slices of the scheduler; rounds that are longer than a
- * slice need only a few. */
+/* Length of a measurement window: several time slices of the scheduler.  Rounds longer
+ * than a slice need only a few rounds. */
 static const double window_s = 0.02;
 enum { WINDOW_ROUNDS = 4 };
 
 static const double rest_least_s = 0.1, rest_most_s = 3.2;
 
-/* More threads have to be faster by this factor, fewer may be slower by that one: a
- * thread that gains nothing leaves its core to others. */
+/* A candidate with more threads must be faster by the first factor; one with fewer may
+ * be slower by the second.  A thread without a gain leaves its core to other processes.
+ */
 static const double worth_more = 0.95, worth_fewer = 1.01;
 
-/* A candidate that is slower by this factor after a quarter of its window ends. */
+/* A candidate that is slower by this factor is given up after a quarter of its window. */
 static const double hopeless = 1.4;
 
 enum { NEIGHBOURS = 4 };
 
-/* Neighbour k of `active` threads: half, one fewer, twice, one more. */
+/* Neighbour k of `active` threads: half as many, one fewer, twice as many, one more. */
 static int neighbour(const struct gb_team_pace *pace, int k)
 {
     const int active = pace->active;
@@ -71,8 +73,8 @@ int gb_team_pace_threads(const struct gb_team_pace *pace)
     return pace->phase == GB_TEAM_PACE_CANDIDATE ? pace->candidate : pace->active;
 }
 
-/* Starts the window of the next neighbour that differs from `active`; rests after all of
- * them. */
+/* Starts the window of the next neighbour that differs from `active`.  Rests after the
+ * last one. */
 static void try_next(struct gb_team_pace *pace)
 {
     for (; pace->failed < NEIGHBOURS; pace->failed++) {
@@ -94,7 +96,7 @@ static void judge(struct gb_team_pace *pace, double candidate_s)
         pace->last = pace->active; /* known to be worse */
         pace->active = pace->candidate;
         pace->base_s = candidate_s;
-        pace->failed = 0; /* goes on in the same direction */
+        pace->failed = 0; /* continue in the same direction */
         pace->rest_s = rest_least_s;
     } else {
         pace->last = pace->candidate;
@@ -104,7 +106,7 @@ static void judge(struct gb_team_pace *pace, double candidate_s)
     try_next(pace);
 }
 
-/* True at the end of a window; early if the candidate is hopeless. */
+/* Is the window complete, or the candidate hopeless? */
 static bool window_ends(const struct gb_team_pace *pace, double mean_s)
 {
     if (pace->rounds < WINDOW_ROUNDS) {
@@ -139,16 +141,16 @@ void gb_team_pace_add(struct gb_team_pace *pace, double seconds)
     }
 }
 
-/* A thread that waits looks for new work for some time before it sleeps: waking takes tens
- * of microseconds, as long as what a strain step does between two works of the team.  After
- * the first of these times it offers its core to other threads between its looks, for that
- * may be what the awaited thread lacks. */
+/* A waiting thread polls for some time before it sleeps, because waking it takes tens
+ * of microseconds.  A strain step spends as long between two pieces of work of the
+ * team.  After spin_s the thread yields its core between polls, since the thread that
+ * it waits for may need the core. */
 static const double spin_s = 10e-6, yield_s = 200e-6;
-enum { LOOKS_PER_CLOCK = 32 }; /* readings of the clock cost more than a look */
+enum { LOOKS_PER_CLOCK = 32 }; /* reading the clock costs more than a poll */
 
 enum { CACHE_LINE = 64 };
 
-/* A place to wait in: `signal` after a change, `await` until it. */
+/* A place to sleep until another thread signals a change. */
 struct bell {
     pthread_mutex_t lock;
     pthread_cond_t rung;
@@ -157,11 +159,11 @@ struct bell {
 
 /* One thread of the team: 0 is the caller. */
 struct member {
-    /* Items of its share that no thread has taken: the next one in the upper half, one past
-     * the last in the lower half.  A successful exchange of the word makes the item the
-     * exchanger's, of the work that the word belongs to by then. */
+    /* Remaining items of this thread's share: the next item in the upper half of the
+     * word, the end in the lower half.  The thread whose compare-exchange succeeds owns
+     * the item, which belongs to the work that is current at that moment. */
     _Alignas(CACHE_LINE) _Atomic uint64_t share;
-    atomic_uint first; /* item of that share */
+    atomic_uint first; /* first item of the share */
     _Alignas(CACHE_LINE) struct bell bell;
     pthread_t thread;
     struct gb_team *team;
@@ -170,18 +172,19 @@ struct member {
 
 struct gb_team {
     struct member *member;
-    int size; /* threads that exist or shall */
+    int size; /* number of threads, started or not */
     bool started;
-    pid_t process; /* that has the threads; a child of it has none */
+    pid_t process; /* that started the threads; its children have none */
     struct gb_team_pace pace;
     double began_s; /* of the measured work */
-    /* The work, in one cache line: written before its shares, read after an item is taken. */
+    /* The current work, in one cache line: written before the shares, read after an
+     * item is taken. */
     _Alignas(CACHE_LINE) gb_team_item *work;
     void *data;
     atomic_int active;      /* threads of this work */
-    atomic_uint generation; /* grows with every work and at the end */
+    atomic_uint generation; /* incremented for each work and at the end */
     atomic_bool over;
-    _Alignas(CACHE_LINE) _Atomic int64_t left; /* items that are not finished */
+    _Alignas(CACHE_LINE) _Atomic int64_t left; /* number of unfinished items */
 };
 
 static inline void relax_cpu(void)
@@ -206,7 +209,7 @@ static void bell_finish(struct bell *bell)
     pthread_mutex_destroy(&bell->lock);
 }
 
-/* After a change that bell_await looks for. */
+/* To be called after a change for which bell_await may wait. */
 static void bell_ring(struct bell *bell)
 {
     if (atomic_load(&bell->asleep)) {
@@ -218,7 +221,8 @@ static void bell_ring(struct bell *bell)
 
 typedef bool condition(const struct member *member, uint64_t seen);
 
-/* Looks whether the condition holds, for so long at most; true if it does. */
+/* Polls the condition until it holds or the time limit is reached; returns whether it
+ * holds. */
 static bool look_until(const struct member *member, condition *holds, uint64_t seen,
                        double limit_s)
 {
@@ -237,7 +241,7 @@ static bool look_until(const struct member *member, condition *holds, uint64_t s
     return false;
 }
 
-/* Until the condition holds: it looks, then sleeps. */
+/* Waits until the condition holds: polls, then sleeps. */
 static void bell_await(struct member *member, condition *holds, uint64_t seen)
 {
     struct bell *bell = &member->bell;
@@ -282,7 +286,7 @@ static uint64_t share_word(int64_t next, int64_t end)
     return (uint64_t)next << 32 | (uint64_t)end;
 }
 
-/* Takes an item of the member's share; false if none is left. */
+/* Takes an item from the member's share; false if none is left. */
 static bool take(struct member *from, int64_t *item)
 {
     uint64_t word = atomic_load(&from->share);
@@ -296,7 +300,7 @@ static bool take(struct member *from, int64_t *item)
     return true;
 }
 
-/* The last item of a share that its thread works on. */
+/* Is only the last item left of a share on which its thread has started? */
 static bool is_last(const struct member *from, uint64_t word)
 {
     return next_of(word) + 1 == end_of(word) &&
@@ -308,8 +312,9 @@ static bool share_differs(const struct member *member, uint64_t seen)
     return atomic_load(&member->share) != seen;
 }
 
-/* Leaves the last item of another's share to the thread that works on it, which has its data
- * in the caches from the work before: until that thread takes it, or has not for so long. */
+/* Leaves the last item of another share to its own thread, which has the data in its
+ * cache from the previous work.  Returns when that thread takes the item or
+ * `patience_s` has passed. */
 static void leave_last(const struct member *from, double patience_s)
 {
     const uint64_t word = atomic_load(&from->share);
@@ -318,7 +323,7 @@ static void leave_last(const struct member *from, double patience_s)
     }
 }
 
-/* No other work begins before these items count as finished. */
+/* Counts items as finished.  No other work starts before all items are counted. */
 static void count_finished(struct gb_team *team, int number, int64_t items)
 {
     if (items > 0 && atomic_fetch_sub(&team->left, items) == items && number > 0) {
@@ -326,7 +331,7 @@ static void count_finished(struct gb_team *team, int number, int64_t items)
     }
 }
 
-/* Items of the own share, then of the others'. */
+/* Takes the items of the own share, then those of the other shares. */
 static void work_off(struct gb_team *team, int number)
 {
     const double began_s = gb_clock_s();
@@ -389,7 +394,7 @@ bool gb_team_create(struct gb_team **out, int threads, struct gb_error *err)
     return true;
 }
 
-/* Starts the threads; the team shrinks to those that the machine grants. */
+/* Starts the threads.  If the system refuses some, the team becomes smaller. */
 static void start(struct gb_team *team)
 {
     team->started = true;
@@ -419,7 +424,8 @@ void gb_team_destroy(struct gb_team *team)
         bell_ring(&team->member[m].bell);
         pthread_join(team->member[m].thread, NULL);
     }
-    for (int m = 0; !inherited && m < team->size; m++) { /* the parent may hold a bell */
+    for (int m = 0; !inherited && m < team->size;
+         m++) { /* locks may be held in the parent */
         bell_finish(&team->member[m].bell);
     }
     gb_alloc_free(team->member);
@@ -443,15 +449,15 @@ static void run_alone(int64_t items, gb_team_item *work, void *data)
     }
 }
 
-/* First item of the share of thread m: shares have the same number of items or, where it
- * is known, about the same cost. */
+/* First item of the share of thread m.  Shares have about the same cost, or without
+ * costs the same number of items. */
 static int64_t share_begin(int64_t items, const int64_t *cost, int m, int active)
 {
     if (!cost || cost[items] == 0 || m == 0 || m == active) {
         return items * m / active;
     }
     const int64_t twice = 2 * cost[items] * m / active;
-    int64_t item = m; /* none goes without an item */
+    int64_t item = m; /* each thread gets at least one item */
     while (item < items - (active - m) && cost[item] + cost[item + 1] <= twice) {
         item++;
     }
@@ -477,7 +483,7 @@ void gb_team_run_costs(struct gb_team *team, int64_t items, const int64_t *cost,
     const int active = items < limit ? (int)items : limit;
     team->work = work;
     team->data = data;
-    /* The stores that name the shares publish those before them. */
+    /* The release stores of the shares below publish these. */
     atomic_store_explicit(&team->left, items, memory_order_relaxed);
     atomic_store_explicit(&team->active, active, memory_order_relaxed);
     for (int m = 0; m < active; m++) {

@@ -6,7 +6,7 @@
 
 #include <glib.h>
 
-/* Enough for every double in full decimals; a longer number is a mistake. */
+/* Enough for every double in plain decimals; a longer number is an error. */
 enum { NUMBER_MAX = 400, EXPONENT_MAX = 9999, DIGITS_EXACT = 17 };
 
 /* value in SI = number * 10^exponent * factor.  Powers of ten are applied to the decimal
@@ -16,7 +16,7 @@ struct unit {
     const char *name;
     int exponent;
     double factor;
-    bool shown; /* taken when writing; smallest first within a dimension */
+    bool shown; /* used for writing; smallest first within a dimension */
 };
 
 static const struct unit units[] = {
@@ -135,7 +135,7 @@ static const char *skip_digits(const char *text)
     return text;
 }
 
-/* A decimal number cut into its mantissa's text and its power of ten. */
+/* A decimal number, split into the text of its mantissa and its power of ten. */
 struct literal {
     const char *start;
     size_t length; /* of sign and mantissa */
@@ -143,7 +143,7 @@ struct literal {
     const char *end;
 };
 
-/* Exponent part at text, if a whole one is there: "0.018 E" and "1e" have none. */
+/* Scans a complete exponent at text: "0.018 E" and "1e" have none. */
 static const char *scan_exponent(const char *text, int *exponent)
 {
     *exponent = 0;
@@ -195,7 +195,7 @@ static bool evaluate(const struct literal *literal, int shift, double *value)
     char text[NUMBER_MAX + 16];
     char *end = NULL;
     double read = g_ascii_strtod(literal->start, &end);
-    if (shift != 0 || end != literal->end) { /* as in 0x10, which is 0 and a unit */
+    if (shift != 0 || end != literal->end) { /* as in 0x10, which is 0 with a unit */
         snprintf(text, sizeof text, "%.*se%d", (int)literal->length, literal->start,
                  literal->exponent + shift);
         read = g_ascii_strtod(text, NULL);
@@ -219,7 +219,7 @@ bool gb_units_number(const char *text, const char **end, double *value)
     return true;
 }
 
-/* Compares a unit as typed with a name; blanks count as one. */
+/* Compares a unit as typed with a name; a run of blanks counts as one. */
 static bool same_unit(const char *typed, const char *name)
 {
     while (*name != '\0') {
@@ -275,7 +275,8 @@ bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value
     if (*gb_units_comma(text, advice, sizeof advice) != '\0') {
         return gb_error_set(err, GB_ERR_INPUT, "'%.60s': %s", text, advice);
     }
-    /* a number can overflow alone and not with its unit: "1e309 %" */
+    /* the number alone may overflow although its value with the unit does not: "1e309
+     * %" */
     if (!read || !evaluate(&literal, 0, &value)) {
         return gb_error_set(err, GB_ERR_INPUT, "'%.60s' is not a number", text);
     }
@@ -285,7 +286,7 @@ bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value
                               gb_units_accepted(dimension));
 }
 
-/* d.ddd times 10^exponent. */
+/* A decimal number d.ddd times 10^exponent. */
 struct decimal {
     bool negative;
     char digits[24];
@@ -293,7 +294,7 @@ struct decimal {
     int exponent;
 };
 
-/* value rounded to count significant digits. */
+/* Rounds value to `count` significant digits. */
 static void decimal_round(double value, int count, struct decimal *out)
 {
     char format[16], text[40];
@@ -322,9 +323,9 @@ static double decimal_value(const struct decimal *decimal)
     return g_ascii_strtod(text, NULL);
 }
 
-/* Number of the unit's multiples in value_si, its power of ten left out: with as few
- * digits as read back to value_si, or with exactly `digits`.  False when 17 digits are
- * not enough (possible where the factor is no power of ten). */
+/* Divides value_si by the factor of a unit.  Uses the fewest digits that read back to
+ * value_si, or exactly `digits`.  False if 17 digits are not enough, which is possible
+ * if the factor is not a power of ten. */
 static bool decimal_of(double value_si, double factor, int digits, struct decimal *out)
 {
     const double number = value_si / factor;
@@ -341,7 +342,7 @@ static bool decimal_of(double value_si, double factor, int digits, struct decima
     return false;
 }
 
-/* Plain decimals where they stay readable, else scientific. */
+/* Writes plain decimals if they are readable, else an exponent. */
 static void decimal_write(const struct decimal *decimal, int exponent, char *out,
                           size_t size)
 {
@@ -361,8 +362,8 @@ static void decimal_write(const struct decimal *decimal, int exponent, char *out
     }
 }
 
-/* How well a unit suits: 0 when the mantissa lies in [1, 1000), below 0 for smaller
- * mantissas, above for larger.  kB has no multiples, so its mantissas may be longer. */
+/* How well a unit fits: 0 for a mantissa in [1, 1000), negative for a smaller one,
+ * positive for a larger one.  Units without multiples (kB) allow longer mantissas. */
 static int misfit(const struct unit *unit, const struct decimal *decimal)
 {
     const int lead = decimal->exponent - unit->exponent;
@@ -389,7 +390,7 @@ static char *format_digits(double value_si, enum gb_dimension dimension, int dig
             !decimal_of(value_si, unit->factor, digits, &decimal)) {
             continue;
         }
-        /* Smallest first: a larger unit only while the mantissa is too long. */
+        /* Smallest unit first; take a larger one only if the mantissa is too long. */
         if (!best || (misfit(best, &best_decimal) > 0 && value_si != 0.0)) {
             best = unit;
             best_decimal = decimal;

@@ -3,10 +3,10 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* Bytes of the longest escape, "\u009b", or character of UTF-8, and a NUL. */
+/* Bytes of the longest escape, "\u009b", or UTF-8 character, and a NUL. */
 enum { UNIT_BYTES = 8 };
 
-/* The next character or its escape; returns the bytes read. */
+/* Copies the next character or its escape to unit; returns the number of bytes read. */
 static size_t take(const char *at, const char *kept, char unit[UNIT_BYTES])
 {
     const unsigned char byte = (unsigned char)*at;

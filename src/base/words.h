@@ -3,26 +3,26 @@
 
 #include <stddef.h>
 
-/* Words in messages: what was meant instead of a wrong one, and lists that fit. */
+/* Helpers for messages: suggestions for mistyped words, and lists that fit a width. */
 
-/* Characters to replace, to insert, to leave out, or neighbours to exchange, from a to b; many
- * for words beyond 40 bytes.  Source: Damerau, Commun. ACM 7, 171 (1964). */
+/* Edit distance from a to b: characters to replace, insert or delete, and neighbours to
+ * exchange.  A large number for words beyond 40 bytes.  Source: Damerau, Commun.  ACM
+ * 7, 171 (1964). */
 int gb_words_edits(const char *a, const char *b);
 
-/* Edits that a name may be away from what was meant: a third of its characters, at most
- * two. */
+/* Largest edit distance at which a name still counts as mistyped: a third of its
+ * characters, at most two. */
 int gb_words_allowed(const char *name);
 
-/* "did you mean densification? " for the one of the words (NULL at the end) that is so near
- * to the name; "" where none is, or several are.  Returns buffer. */
+/* Writes "did you mean densification? " for the one of the words (NULL at the end) that
+ * is that near to the name; "" if none is, or several are.  Returns buffer. */
 char *gb_words_nearest(const char *name, char *const *words, char *buffer, size_t size);
 
-/* The same with the words in one text, between ", ". */
+/* The same with the words in one text, separated by ", ". */
 char *gb_words_nearest_in(const char *name, const char *words, char *buffer, size_t size);
 
-/* Whole words with commas between in newly allocated memory (g_free), as far as they fit into
- * so many bytes without the 0; the other ones are counted at the end: "a, b and 3 more".  ""
- * when none fits. */
+/* Joins whole words with commas (g_free), as many as fit into `bytes` bytes without the
+ * final '\0'; the others are counted: "a, b and 3 more". "" if none fits. */
 char *gb_words_join(char *const *words, size_t bytes);
 
 #endif
