@@ -19,44 +19,44 @@
 #include "base/file.h"
 #include "greenbody/status.h"
 
-/* An HDF5 file that is built in memory and outlives its close.  A large one is built in the
- * mapped temporary file that will replace the target: HDF5 sees memory either way and meets
- * no error of a disk, but only the pages in use are resident. */
+/* An HDF5 file that is built in memory and remains after H5Fclose.  A large file is
+ * built in a mapped temporary file, which will replace the target.  HDF5 sees memory in
+ * both cases and meets no disk errors, but only the pages in use are resident. */
 struct image {
-    const char *path; /* of the target; NULL: none, the image stays in memory */
-    void *image;      /* after H5Fclose: the finished file */
-    void *mapped;     /* image of the temporary file; NULL: it is memory */
-    size_t room;      /* bytes of the image */
+    const char *path; /* the target; NULL: none, the image stays in memory */
+    void *image;      /* the finished file, after H5Fclose */
+    void *mapped;     /* mapping of the temporary file; NULL: the image is in memory */
+    size_t room;      /* allocated bytes */
     char *name;       /* of the temporary file */
     int fd;
-    int fault; /* errno where the temporary file could not be made or grow */
+    int fault; /* errno if the temporary file could not be created or extended */
 };
 
 struct gb_hdf {
     hid_t file;
     char *path;
     struct image memory; /* of a file under construction */
-    bool locked;         /* its thread is the one that may call HDF5 */
+    bool locked;         /* its thread holds the HDF5 lock */
 };
 
-/* Largest ratio of deflate: a dataset that claims to be larger is damaged, and allocating
- * it would let a small file exhaust the memory. */
+/* Largest ratio of deflate.  A dataset that claims more is damaged; allocating its
+ * memory would let a small file exhaust the memory. */
 static const double packing_limit = 1032.0;
 
 enum image_end { IMAGE_STORED, IMAGE_STAYS };
 
-/* Parts of this file: the image of a file under construction, number types, the lock and the
- * file, attributes of the root, datasets, lists of datasets, groups. */
+/* Order of this file: the image of a file being written, number types, the lock,
+ * opening and closing, attributes of the root, datasets, lists of datasets, groups. */
 
 enum { IMAGE_STEP = 1 << 20 }; /* growth of the image */
-enum { MARGIN = 8 << 20 };     /* left for small pieces */
+enum { MARGIN = 8 << 20 };     /* reserve for small allocations */
 
-/* Beyond this an image is a mapped file, which grows by FILE_STEP. */
+/* Larger images are mapped files, which grow by FILE_STEP. */
 enum { IMAGE_MAX = 1 << 20, FILE_STEP = 2 << 20 };
 
-/* Whether there is room for so much more, and for small pieces, without which HDF5 ends the
- * program.  Pages that are mapped and never written cost nothing; the heap may fill what it
- * hands out (MALLOC_PERTURB_). */
+/* Is there memory for `size` more bytes and for the small allocations of HDF5?  The
+ * test maps pages and never writes them, which is free; with malloc, MALLOC_PERTURB_
+ * would fill them. */
 static bool left_beside(size_t size)
 {
     void *margin = mmap(NULL, size + MARGIN, PROT_READ | PROT_WRITE,
@@ -64,16 +64,16 @@ static bool left_beside(size_t size)
     return margin != MAP_FAILED && munmap(margin, size + MARGIN) == 0;
 }
 
-/* Is there memory for what HDF5 allocates in small pieces?  Where one of those fails it
- * ends the program or crashes, so that large pieces are refused before. */
+/* Is there memory for the small allocations of HDF5?  If one of them fails, HDF5 aborts
+ * or crashes, so large allocations are refused in advance. */
 static bool image_left(void)
 {
     return left_beside(0);
 }
 
-/* The memory of a file under construction.  H5Fget_file_image would copy it, and in 1.10
- * clears a flag of the header without renewing its checksum; so the close hands over the
- * finished image instead of freeing it. */
+/* Allocates the memory of a file being written.  H5Fget_file_image would copy it, and
+ * in version 1.10 changes a flag of the header without updating its checksum.  Instead
+ * H5Fclose hands over the finished image through these callbacks. */
 static void *image_malloc(size_t size, H5FD_file_image_op_t why, void *data)
 {
     struct image *memory = data;
@@ -91,8 +91,8 @@ static void *grow_memory(struct image *memory, void *image, size_t size)
     return realloc(image, size);
 }
 
-/* Blocks of the disk for the whole image: a write to a page without one is a signal, not
- * an error. */
+/* Reserves disk blocks for the whole image: a write to a mapped page without a block
+ * would raise a signal instead of an error. */
 static bool reserve_blocks(struct image *memory, size_t from, size_t to)
 {
     int why = gb_file_may_write() ? EINTR : ENOSPC;
@@ -108,7 +108,7 @@ static size_t file_room(size_t size)
     return (size + FILE_STEP - 1) / FILE_STEP * FILE_STEP;
 }
 
-/* No temporary file, or none that can be mapped. */
+/* Falls back to memory: the temporary file could not be created or mapped. */
 static void *give_up_file(struct image *memory)
 {
     memory->fault = 0;
@@ -122,7 +122,7 @@ static void *give_up_file(struct image *memory)
     return NULL;
 }
 
-/* The image moves into a temporary file; NULL: it stays in memory. */
+/* Moves the image to a temporary file; NULL: it stays in memory. */
 static void *move_to_file(struct image *memory, void *image, size_t size)
 {
     const size_t room = file_room(size);
@@ -135,7 +135,7 @@ static void *move_to_file(struct image *memory, void *image, size_t size)
         return give_up_file(memory);
     }
     void *mapped = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_SHARED, memory->fd, 0);
-    if (mapped == MAP_FAILED) { /* some file systems of networks */
+    if (mapped == MAP_FAILED) { /* on some network file systems */
         return give_up_file(memory);
     }
     if (image != NULL) {
@@ -153,7 +153,7 @@ static void *grow_file(struct image *memory, size_t size)
     if (room > memory->room) {
         if (!left_beside(room - memory->room) ||
             !reserve_blocks(memory, memory->room, room)) {
-            return NULL; /* with a fault */
+            return NULL; /* memory->fault is set */
         }
         void *mapped = mremap(memory->mapped, memory->room, room, MREMAP_MAYMOVE);
         if (mapped == MAP_FAILED) {
@@ -203,9 +203,10 @@ static herr_t keep_data(void *data)
     return 0;
 }
 
-/* A new file that will go to path, or (IMAGE_STAYS) nowhere; negative when there is no
- * memory.  Format 1.8: checksummed headers, read by every h5py.  No times: equal packings
- * make equal files.  memory and path must stay where they are until image_finish. */
+/* Creates a file for path, or with IMAGE_STAYS one that is not stored.  Negative: out
+ * of memory.  Format 1.8 has checksummed headers and is read by every h5py.  Objects
+ * have no times, so equal packings make equal files. memory and path must not move
+ * until image_finish. */
 static hid_t image_create(struct image *memory, const char *path, enum image_end end)
 {
     H5FD_file_image_callbacks_t calls = {.image_malloc = image_malloc,
@@ -214,8 +215,8 @@ static hid_t image_create(struct image *memory, const char *path, enum image_end
                                          .udata_copy = same_data,
                                          .udata_free = keep_data,
                                          .udata = memory};
-    /* HDF5 reads a file of that name if there is one, and distinguishes files in memory
-     * by their names only */
+    /* HDF5 would read an existing file of this name, and distinguishes files in memory
+     * only by name */
     char *name = g_strdup_printf("%s.%p.memory", path, (void *)memory);
     memory->path = end == IMAGE_STORED ? path : NULL;
     memory->fd = -1;
@@ -234,9 +235,8 @@ static hid_t image_create(struct image *memory, const char *path, enum image_end
     return id;
 }
 
-/* Bytes of the finished file. */
-/* Size of a finished image.  Known only after the close, which gives back spare room at
- * the end; it is the end-of-file address in the header (format 1.8: superblock 2, byte
+/* Size of a finished image, known only after the close, which releases spare room at
+ * the end.  It is the end-of-file address in the header (format 1.8: superblock 2, byte
  * 28). */
 static size_t image_size(const struct image *memory)
 {
@@ -245,15 +245,15 @@ static size_t image_size(const struct image *memory)
     return (size_t)GUINT64_FROM_LE(size);
 }
 
-/* Between two calls of HDF5: no page of a mapped image is resident. */
+/* Drops the resident pages of a mapped image between two calls of HDF5. */
 static void image_release(const struct image *memory)
 {
-    if (memory->mapped != NULL) { /* what was written is in the file */
+    if (memory->mapped != NULL) { /* written data are in the file */
         (void)madvise(memory->mapped, memory->room, MADV_DONTNEED);
     }
 }
 
-/* The finished file to its path.  Errors as those of gb_file_replace. */
+/* Stores the finished file at its path.  Errors: see gb_file_replace. */
 static bool image_store(struct image *memory, struct gb_error *err)
 {
     const size_t size = image_size(memory);
@@ -264,8 +264,8 @@ static bool image_store(struct image *memory, struct gb_error *err)
     return gb_file_replace_by(memory->path, memory->name, memory->fd, size, err);
 }
 
-/* HDF5 has an image that it could not close, and may still look at it: empty memory in its
- * place, so that the disk gets its room back. */
+/* If HDF5 could not close an image it may still access it.  Maps empty memory in its
+ * place, so that the disk space of the file is released. */
 static void leave_to_hdf5(const struct image *memory)
 {
     (void)mmap(memory->mapped, memory->room, PROT_READ | PROT_WRITE,
@@ -288,8 +288,8 @@ static void image_finish(struct image *memory)
     *memory = (struct image){.fd = -1};
 }
 
-/* HDF5 prints its error stack to stderr unless told otherwise.  The setting belongs to the
- * calling thread: every entry point sets it. */
+/* Stops HDF5 from printing its error stack to stderr.  The setting is per thread, so
+ * every entry point calls this. */
 static void mute(void)
 {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -351,7 +351,7 @@ static hid_t type_file(enum gb_hdf_type type)
     }
 }
 
-/* Bytes of a number in memory. */
+/* Bytes per number in memory. */
 static size_t type_bytes(enum gb_hdf_type type)
 {
     switch (type) {
@@ -373,12 +373,12 @@ static bool type_fit(hid_t type, enum gb_hdf_type wanted)
            (class != H5T_INTEGER || H5Tget_sign(type) == H5Tget_sign(model));
 }
 
-/* Many builds of HDF5 may only be called by one thread at a time: a thread has it for as long
- * as it has a file. */
+/* Many builds of HDF5 allow only one thread at a time.  A thread holds this lock as
+ * long as it has a file. */
 static pthread_mutex_t one_thread;
 static pthread_once_t prepared = PTHREAD_ONCE_INIT;
 
-/* One thread may have several files. */
+/* Recursive, because one thread may have several files. */
 static void make_lock(void)
 {
     pthread_mutexattr_t kind;
@@ -388,8 +388,9 @@ static void make_lock(void)
     pthread_mutexattr_destroy(&kind);
 }
 
-/* Around fork: no other thread is inside HDF5, whose state the child inherits.  The mutex of
- * the child has an owner that does not exist there. */
+/* Around fork: waits until no other thread is inside HDF5, because the child inherits
+ * its state.  The child makes a new mutex, since the owner of the inherited one does
+ * not exist there. */
 static void before_fork(void)
 {
     pthread_mutex_lock(&one_thread);
@@ -425,7 +426,7 @@ static struct gb_hdf *wrap(const char *path, struct gb_error *err)
     return file;
 }
 
-/* HDF5 is called no more for this file. */
+/* Releases the lock after the last HDF5 call for this file. */
 static void unlock(struct gb_hdf *file)
 {
     if (file->locked) {
@@ -475,7 +476,7 @@ bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err)
     if (!flushed || !closed || file->memory.image == NULL) {
         return unwritten(file, "/", err);
     }
-    unlock(file); /* a slow disk makes no other thread wait */
+    unlock(file); /* before the write, so that a slow disk blocks no other thread */
     return image_store(&file->memory, err);
 }
 
@@ -483,7 +484,7 @@ bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err)
 {
     struct stat info;
     *out = NULL;
-    /* A pipe or a device would block the open for ever. */
+    /* Opening a pipe or a device could block forever. */
     if (stat(path, &info) != 0) {
         return gb_error_set(err, GB_ERR_MACHINE, "%s: %s", path, g_strerror(errno));
     }
@@ -499,8 +500,8 @@ bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err)
     if (*out == NULL) {
         return false;
     }
-    /* No lock: a state is only ever replaced as a whole, and network file systems refuse
-     * locks. */
+    /* No file locking: a state is only replaced as a whole, and network file systems
+     * refuse locks. */
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_file_locking(access, false, true);
     (*out)->file = H5Fopen(path, H5F_ACC_RDONLY, access);
@@ -531,7 +532,7 @@ void gb_hdf_destroy(struct gb_hdf *file)
 
 enum { TEXT_MAX = 4096 }; /* longest text attribute that is read */
 
-/* A text attribute of fixed length on any object. */
+/* Writes a text attribute of fixed length on any object. */
 static bool add_text(hid_t object, const char *name, const char *text)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
@@ -566,7 +567,7 @@ bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type 
     return done || unwritten(file, name, err);
 }
 
-/* Opens an attribute, its type and its space; false when one is missing. */
+/* Opens an attribute with its type and its dataspace; false if one is missing. */
 static bool open_attribute(struct gb_hdf *file, const char *name, hid_t id[3])
 {
     id[0] = H5Aopen(file->file, name, H5P_DEFAULT);
@@ -614,8 +615,8 @@ bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
     return add_text(file->file, name, text) || unwritten(file, name, err);
 }
 
-/* A title ends up in terminals and captions: no escape sequences, whole characters only.
- */
+/* Makes a text safe for terminals and captions: no control characters, only whole
+ * characters. */
 static void clean_text(char *text)
 {
     const char *end = NULL;
@@ -656,7 +657,7 @@ bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t s
     return fault == NULL || broken(file, name, fault, err);
 }
 
-/* Rows begin .. end - 1 of a dataset. */
+/* Writes rows begin .. end - 1 of a dataset. */
 static bool write_rows(hid_t set, const struct gb_hdf_array *array, int64_t begin,
                        int64_t end, const void *data)
 {
@@ -707,7 +708,7 @@ static bool write_array(struct gb_hdf *file, hid_t set, const struct gb_hdf_arra
 bool gb_hdf_put_rows(struct gb_hdf *file, const struct gb_hdf_array *array,
                      struct gb_hdf_rows rows, struct gb_error *err)
 {
-    if (!image_left()) { /* others have taken it since the file was made */
+    if (!image_left()) { /* memory may have been used since the file was created */
         return gb_error_set(err, GB_ERR_MEMORY, "%s: out of memory for a state",
                             file->path);
     }
@@ -735,7 +736,7 @@ bool gb_hdf_put_rows(struct gb_hdf *file, const struct gb_hdf_array *array,
     return done || unwritten(file, array->name, err);
 }
 
-/* Rows of an array in memory. */
+/* An array that is completely in memory, for rows_of_whole. */
 struct whole {
     const char *data;
     size_t row_bytes;
@@ -755,7 +756,7 @@ bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
     return gb_hdf_put_rows(file, array, (struct gb_hdf_rows){rows_of_whole, &whole}, err);
 }
 
-/* What is wrong with the way the data of a dataset is kept, or NULL. */
+/* What is wrong with the storage of a dataset, or NULL. */
 static const char *storage_fault(hid_t set, double bytes)
 {
     const hid_t create = H5Dget_create_plist(set);
@@ -803,7 +804,8 @@ static const char *shape_fault(hid_t set, const struct gb_hdf_array *array, int6
     return fault;
 }
 
-/* Opens a dataset of this very file whose type and columns fit; negative on error. */
+/* Opens a dataset that is in this file and has the expected type and columns; negative
+ * on error. */
 static hid_t open_set(struct gb_hdf *file, const struct gb_hdf_array *array,
                       int64_t *rows, struct gb_error *err)
 {
@@ -863,7 +865,7 @@ bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, voi
     return done;
 }
 
-enum { DEEPEST = 2 }; /* groups in groups that are read */
+enum { DEEPEST = 2 }; /* depth of nested groups */
 
 bool gb_hdf_list_has(struct gb_hdf *file, const char *name)
 {
@@ -871,7 +873,7 @@ bool gb_hdf_list_has(struct gb_hdf *file, const char *name)
     return H5Lexists(file->file, name, H5P_DEFAULT) > 0;
 }
 
-/* What the object of that name is; H5I_BADID for what is not of this very file. */
+/* Type of the object with this name; H5I_BADID for links to other files. */
 static H5I_type_t kind_of(const struct gb_hdf *file, const char *name)
 {
     H5L_info_t link;
@@ -917,8 +919,8 @@ static bool read_group(struct gb_hdf *file, const char *group, int depth,
         H5Gget_info_by_name(file->file, group, &info, H5P_DEFAULT) < 0) {
         return broken(file, group, "is not a group", err);
     }
-    /* in the order of the file: sorted by name HDF5 1.10 frees what it has not read when
-     * a group claims more names than it has */
+    /* in the order of the file: with sorted names HDF5 1.10 frees memory that it has
+     * not read if a group claims more names than it has */
     for (hsize_t k = 0; k < info.nlinks; k++) {
         char child[GB_HDF_LIST_NAME], name[2 * GB_HDF_LIST_NAME];
         const ssize_t length =
@@ -1004,7 +1006,7 @@ bool gb_hdf_group_create(struct gb_hdf *file, const char *group, struct gb_error
     return (id >= 0 && H5Gclose(id) >= 0) || no_memory(file, group, err);
 }
 
-/* An attribute of that type and space; closes both. */
+/* Writes an attribute of this type and space; closes both. */
 static bool put(struct gb_hdf *file, const char *group, const char *name, hid_t type,
                 hid_t space, hid_t memory, const void *data, struct gb_error *err)
 {
@@ -1032,7 +1034,8 @@ bool gb_hdf_group_text(struct gb_hdf *file, const char *group, const char *name,
 {
     mute();
     const hid_t type = H5Tcopy(H5T_C_S1);
-    /* ParaView 5.11 knows no type with a byte behind it; HDF5 has no text of no bytes */
+    /* ParaView 5.11 cannot read texts with an additional byte; HDF5 has no texts of
+     * length 0 */
     H5Tset_size(type, text[0] != '\0' ? strlen(text) : 1);
     H5Tset_strpad(type, H5T_STR_NULLPAD);
     const bool done =

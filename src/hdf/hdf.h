@@ -8,13 +8,13 @@
 
 #include "greenbody/status.h"
 
-/* HDF5 files with one-line errors.  Written files are built in memory and replaced as a
- * whole: after an I/O error HDF5 could not close the file.  Read files are not trusted:
- * types, ranks and sizes are checked before memory is allocated, and links and external
- * or virtual data are refused.
+/* HDF5 files with one-line errors.  Files are written to memory first and stored as a
+ * whole, because after an I/O error HDF5 could not close a file.  Files that are read
+ * are not trusted: types, ranks and sizes are checked before memory is allocated, and
+ * links, external data and virtual data are refused.
  *
- * A thread that has a file is the only one: others wait in gb_hdf_create and gb_hdf_open until
- * it has stored or destroyed its files. */
+ * Only one thread at a time can have files.  Others wait in gb_hdf_create and
+ * gb_hdf_open until it has stored or destroyed all of its files. */
 struct gb_hdf;
 
 enum gb_hdf_type {
@@ -23,24 +23,24 @@ enum gb_hdf_type {
     GB_HDF_INT64,
     GB_HDF_UINT64,
     GB_HDF_UINT8,
-    GB_HDF_FLOAT /* doubles of a file that are floats in memory */
+    GB_HDF_FLOAT /* doubles in the file, floats in memory */
 };
 
-/* An empty file in memory, which gb_hdf_store writes to path.  After that only
+/* Creates an empty file in memory, which gb_hdf_store writes to path.  After that only
  * gb_hdf_destroy may be called. */
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err);
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err);
-/* The same for gb_hdf_group_image; the name is that of errors. */
+/* The same for gb_hdf_group_image; name is used in errors. */
 bool gb_hdf_create_image(struct gb_hdf **out, const char *name, struct gb_error *err);
-/* An existing file, to be read. */
+/* Opens an existing file for reading. */
 bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err);
 void gb_hdf_destroy(struct gb_hdf *file); /* NULL is fine */
 
-/* Before any other function: HDF5 does not close files at the exit of the program.  A file
- * that could not be closed for lack of memory would bring the exit down. */
+/* Call this before all other functions: HDF5 then does not close files at exit, which
+ * would crash if a file could not be closed for lack of memory. */
 void gb_hdf_skip_exit(void);
 
-/* Dataset of rows x columns (rank 1 when columns is 1) with its unit as an attribute. */
+/* A dataset of rows x columns (rank 1 if columns is 1), with its unit as an attribute. */
 struct gb_hdf_array {
     const char *name; /* "/position" */
     enum gb_hdf_type type;
@@ -52,8 +52,8 @@ struct gb_hdf_array {
 bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                       const void *data, struct gb_error *err);
 
-/* The rows of a dataset, asked for in order: begin .. end - 1, which have to stay until the
- * next are asked for. */
+/* Callback that provides the rows of a dataset.  It is called in order for rows begin
+ * .. end - 1, which must stay valid until the next call. */
 struct gb_hdf_rows {
     const void *(*at)(void *data, int64_t begin, int64_t end);
     void *data;
@@ -61,20 +61,20 @@ struct gb_hdf_rows {
 bool gb_hdf_put_rows(struct gb_hdf *file, const struct gb_hdf_array *array,
                      struct gb_hdf_rows rows, struct gb_error *err);
 
-/* Bytes of a row in memory, and rows that are asked for at once: of GB_HDF_SLAB bytes and
- * one row at most. */
+/* Bytes of a row in memory, and the number of rows in one call of gb_hdf_rows.at:
+ * GB_HDF_SLAB bytes, but at least one row. */
 enum { GB_HDF_SLAB = 1 << 20 };
 size_t gb_hdf_row_bytes(const struct gb_hdf_array *array);
 int64_t gb_hdf_slab_rows(const struct gb_hdf_array *array);
-/* Rows of a dataset whose type and columns are as in array; array->rows is not looked at.
- */
+/* Number of rows of a dataset with the type and columns of array; array->rows is
+ * ignored. */
 bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,
                  struct gb_error *err);
 /* Reads a dataset that has exactly the shape of array. */
 bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, void *data,
                       struct gb_error *err);
 
-/* Attributes of the root group: count numbers of one type, or a text.  A text that is
+/* Attributes of the root group: `count` numbers of one type, or a text.  A text that is
  * read is cut to size and made valid UTF-8 without control characters. */
 bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, const void *data, struct gb_error *err);
@@ -85,7 +85,7 @@ bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
 bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
                      struct gb_error *err);
 
-/* Names of datasets that are not known beforehand. */
+/* List of datasets whose names are not known in advance. */
 enum { GB_HDF_LIST_NAME = 64 };
 
 struct gb_hdf_list {
@@ -93,32 +93,34 @@ struct gb_hdf_list {
     char name[256][GB_HDF_LIST_NAME]; /* "/checkpoint/world/position" */
 };
 
-/* Is there an object of that name? */
+/* Does an object with this name exist? */
 bool gb_hdf_list_has(struct gb_hdf *file, const char *name);
 
 /* Names of all datasets in the subgroups of a group, two levels deep.  Errors:
- * GB_ERR_INPUT for links, other objects, names too long and more than 256 of them. */
+ * GB_ERR_INPUT for links, other objects, names that are too long, and more than 256
+ * names. */
 bool gb_hdf_list_read(struct gb_hdf *file, const char *group, struct gb_hdf_list *list,
                       struct gb_error *err);
 
-/* Number type, rows and columns of a dataset; array->name is given.  The size is not yet
- * to be trusted: gb_hdf_rows checks it. */
+/* Reads number type, rows and columns of the dataset array->name.  Do not trust the
+ * size before gb_hdf_rows has checked it. */
 bool gb_hdf_list_probe(struct gb_hdf *file, struct gb_hdf_array *array,
                        struct gb_error *err);
 
-/* Groups with attributes, as other programs want them, and the file as bytes. */
+/* Groups with attributes, as other programs need them, and the file as bytes. */
 
-/* A group of the root, "/VTKHDF". */
+/* Creates a group of the root, such as "/VTKHDF". */
 bool gb_hdf_group_create(struct gb_hdf *file, const char *group, struct gb_error *err);
 
-/* An attribute of a group: count numbers as an array, or a text of fixed length. */
+/* Writes an attribute of a group: `count` numbers as an array, or a text of fixed
+ * length. */
 bool gb_hdf_group_numbers(struct gb_hdf *file, const char *group, const char *name,
                           int count, const int64_t *numbers, struct gb_error *err);
 
 bool gb_hdf_group_text(struct gb_hdf *file, const char *group, const char *name,
                        const char *text, struct gb_error *err);
 
-/* The finished file behind what is in bytes, instead of gb_hdf_store.  After that only
+/* Appends the finished file to bytes, instead of gb_hdf_store.  After that only
  * gb_hdf_destroy may be called. */
 bool gb_hdf_group_image(struct gb_hdf *file, GString *bytes, struct gb_error *err);
 

@@ -5,8 +5,8 @@
 
 #include "hdf/hdf.h"
 
-/* Raised whenever the members of a record change their meaning: a resumed run must be the
- * same run, so no other layout is read. */
+/* Increased whenever members of a record change their meaning.  Other layouts are not
+ * read, because a resumed run must be the same run. */
 static const int32_t layout_number = 3;
 
 static const char group[] = "/checkpoint";
@@ -86,8 +86,8 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
     return true;
 }
 
-/* One dataset becomes one item.  Its size is checked against what is stored before memory
- * is asked for. */
+/* Reads one dataset into one item.  Its size is checked against the stored data before
+ * memory is allocated. */
 static bool read_item(struct gb_hdf *file, const char *path, const char *name,
                       struct gb_record *record, struct gb_error *err)
 {
