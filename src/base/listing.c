@@ -76,8 +76,7 @@ static bool is_text(const struct column *column)
     return strchr(column->format, 's') != NULL;
 }
 
-/* --- filling
- * -------------------------------------------------------------------------- */
+/* --- filling ------------------------------------------------------------------------ */
 
 void gb_listing_comment(struct gb_listing *listing, const char *lines)
 {
@@ -167,8 +166,7 @@ void gb_listing_text(struct gb_listing *listing, const char *text)
     end_cell(listing);
 }
 
-/* --- writing
- * -------------------------------------------------------------------------- */
+/* --- writing ------------------------------------------------------------------------ */
 
 /* Position while writing the cells in order. */
 struct walk {
