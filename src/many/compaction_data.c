@@ -1,4 +1,7 @@
-/* Points for the equations of compaction, from runs or from a laboratory. */
+/* Data for fits of compaction equations.  The first part reads measured quantities and
+ * the scenes that simulate them (gb_compaction_data_take), for calibration.  The second
+ * part turns the curves of runs or a laboratory table into points of pressure and
+ * density, at which equations are fitted. */
 
 #include "many/compaction_data.h"
 
@@ -20,11 +23,12 @@
 
 enum { GB_LABDATA_ROWS = 4096, GB_LABDATA_SCENES = 64 };
 
-/* Pressures that differ by less are one. */
+/* Relative difference below which two pressures are equal. */
 static const double same_pressure = 1e-9;
 
-/* "particles.diameter_nm" and 9.7: the assignment "particles.diameter=9.7 nm"; a name
- * without unit is a pure number.  Keys themselves may have '_'. */
+/* Sets a key from a column: "particles.diameter_nm" and 9.7 become
+ * "particles.diameter=9.7 nm".  A column without a unit is a pure number.  Keys may
+ * contain '_' themselves. */
 static bool assign(struct gb_params *params, const char *column, double value,
                    struct gb_error *err)
 {
@@ -85,7 +89,8 @@ static bool has_series(const struct gb_table *table)
     return words != NULL && strcmp(words, "series") == 0;
 }
 
-/* Samples of one scene would be fitted as one curve. */
+/* Rejects tables with several samples in one scene, which would be fitted as one curve.
+ */
 static bool check_series(const struct gb_table *table, struct gb_error *err)
 {
     for (size_t i = 1; i < gb_table_rows(table) && has_series(table); i++) {
@@ -101,7 +106,7 @@ static bool check_series(const struct gb_table *table, struct gb_error *err)
     return true;
 }
 
-/* Unloads from this pressure, too. */
+/* Adds unloading from this pressure to the scene. */
 static bool add_unloading(struct gb_params *scene, double pressure_pa)
 {
     int at = 0;
@@ -123,7 +128,7 @@ static bool add_unloading(struct gb_params *scene, double pressure_pa)
     return true;
 }
 
-/* The scene with the keys of a row, found or added. */
+/* Finds or adds the scene with the keys of a row. */
 static bool find_scene(struct gb_labdata *measured, const struct gb_table *table,
                        size_t row, const struct gb_params *base, size_t *scene,
                        struct gb_error *err)
@@ -166,7 +171,7 @@ static bool refuse_row(const struct gb_table *table, size_t row, const char *wha
                         gb_table_line(table, row), what);
 }
 
-/* Cell of a column that a table may lack, or NaN. */
+/* Cell of an optional column; NaN if the table lacks it. */
 static double cell(const struct gb_table *table, const char *column, size_t row)
 {
     const double *values = gb_table_column(table, column, NULL);
@@ -184,7 +189,7 @@ static bool refuse_value(const struct gb_table *table, size_t row,
     return refuse_row(table, row, what, err);
 }
 
-/* What has to be simulated for a row. */
+/* Extends the scene of a row so that its simulation reaches the row. */
 static bool extend_scene(struct gb_labdata *measured, const struct gb_table *table,
                          const struct gb_labdata_row *row, struct gb_error *err)
 {
@@ -198,7 +203,7 @@ static bool extend_scene(struct gb_labdata *measured, const struct gb_table *tab
                         gb_table_path(table), GB_UNLOAD_MAX);
 }
 
-/* One quantity of a row of the table, unless the row lacks it. */
+/* Takes one quantity of a row of the table, unless the cell is empty. */
 static bool take_quantity(struct gb_labdata *measured, const struct gb_table *table,
                           size_t at, struct gb_labdata_row row, struct gb_error *err)
 {
@@ -263,7 +268,7 @@ static bool take_row(struct gb_labdata *measured, const struct gb_table *table, 
            refuse_row(table, at, "expected one measured value at least", err);
 }
 
-/* Quantities that have a column, and whether any has errors. */
+/* Counts the quantities that have a column, and checks whether any has errors. */
 static size_t count_quantities(const struct gb_table *table, bool *errors)
 {
     size_t count = 0;
@@ -352,22 +357,22 @@ void gb_compaction_data_targets_finish(struct gb_labdata *measured)
     *measured = (struct gb_labdata){0};
 }
 
-/* --- curves of runs ------------------------------------------------------------------- */
+/* --- curves of runs ----------------------------------------------------------------- */
 
-/* Default beginning of the window of runs, over the highest pressure. */
+/* Default start of the window for runs, as a fraction of the highest pressure. */
 static const double first_share = 0.01;
 
-/* Window ends take points that differ by rounding. */
+/* Relative tolerance at the ends of the window, for rounding. */
 static const double slack = 1e-9;
 
-/* Standard errors are smoothed over the points within this share of all on either side:
- * few replicas know the error of one point badly. */
+/* Standard errors are smoothed over this fraction of all points on either side, because
+ * few replicas give an uncertain error at a single point. */
 static const double smoothing_share = 1.0 / 8.0;
 
-/* Least standard error, over the mean of all: an error of 0 is chance. */
+/* Least standard error, over the mean of all errors.  A smaller one is due to chance. */
 static const double least_error = 0.1;
 
-/* Highest pressure that all curves reach. */
+/* The highest pressure that all curves reach. */
 static double common_pressure(const struct gb_average_curve *curves, size_t count)
 {
     double common = INFINITY;
@@ -404,7 +409,7 @@ static bool reserve(struct gb_compaction_data *data, size_t count, size_t replic
     return data->memory != NULL;
 }
 
-/* Root mean square of the errors around each point. */
+/* Running root mean square of the errors. */
 static void smooth_errors(const double *raw, size_t count, double *smooth)
 {
     const size_t reach = (size_t)ceil(smoothing_share * (double)count);
@@ -451,7 +456,7 @@ static void fill_levels(struct gb_compaction_data *data,
     }
 }
 
-/* Levels that a curve only touches from above have no density: they are left out. */
+/* Drops the first levels, at which a curve that comes from above has no density. */
 static void drop_missing(struct gb_equations_points *points, double *memory)
 {
     size_t first = 0;
@@ -500,7 +505,7 @@ bool gb_compaction_data_curves(struct gb_compaction_data *data,
     return true;
 }
 
-/* Density of the last row before loading; NaN: there is none. */
+/* Density of the last row before loading; NaN if there is none. */
 static double density_before(const struct gb_runset_run *run)
 {
     const double *density = gb_table_column(run->table, "density", NULL);
@@ -554,9 +559,9 @@ bool gb_compaction_data_runs(struct gb_compaction_data *data, const struct gb_ru
     return good;
 }
 
-/* --- a table of a laboratory ---------------------------------------------------------- */
+/* --- a table of a laboratory -------------------------------------------------------- */
 
-enum { ROWS_MAX = 100000 }; /* the search for Heckel's stretch goes over all pairs */
+enum { ROWS_MAX = 100000 }; /* the search for Heckel's linear range tests all pairs */
 
 /* A measured point. */
 struct sample {
@@ -570,7 +575,7 @@ static int compare_samples(const void *a, const void *b)
     return (one->pressure > other->pressure) - (one->pressure < other->pressure);
 }
 
-/* Rows of several powders in one file would be fitted as one curve. */
+/* Rejects rows of several powders in one file, which would be fitted as one curve. */
 static bool check_samples(const struct gb_table *table, struct gb_error *err)
 {
     for (size_t k = 0; gb_table_name(table, k) != NULL; k++) {
@@ -588,7 +593,7 @@ static bool check_samples(const struct gb_table *table, struct gb_error *err)
     return true;
 }
 
-/* Whether an earlier row has the word of this one. */
+/* Has an earlier row the same word as this row? */
 static bool is_repeated(const struct gb_table *table, size_t row)
 {
     for (size_t i = 0; i < row; i++) {
@@ -599,7 +604,7 @@ static bool is_repeated(const struct gb_table *table, size_t row)
     return false;
 }
 
-/* The series to be fitted; NULL after an error. */
+/* Name of the series to be fitted; NULL after an error. */
 static const char *choose_series(const struct gb_table *table, const char *series,
                                  struct gb_error *err)
 {
@@ -622,7 +627,7 @@ static const char *choose_series(const struct gb_table *table, const char *serie
     return chosen;
 }
 
-/* Stages besides loading, of curve.csv and of laboratory files. */
+/* Checks that a row's branch is a known word of curve.csv or of laboratory files. */
 static bool check_branch(const struct gb_table *table, size_t row, struct gb_error *err)
 {
     static const char *const known[] = {"load", "unload", "relax", "hold"};
@@ -661,8 +666,9 @@ static bool inside(const struct gb_compaction_window *window, double pressure)
     return !(pressure < window->from) && !(pressure > window->to);
 }
 
-/* The chosen points of the window, in ascending order; their number.  Rows at pressure 0
- * are the powder before loading: initial gets their mean density, NaN without any. */
+/* Selects the marked points within the window, in ascending order, and returns their
+ * number.  Rows at pressure 0 describe the powder before loading: initial receives
+ * their mean density, NaN if there are none. */
 static size_t select_samples(struct sample *samples, const struct gb_measured *measured,
                              const bool *chosen,
                              const struct gb_compaction_window *window, double *initial)

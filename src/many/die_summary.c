@@ -46,7 +46,7 @@ static double floor_over_punch(const struct gb_table *table)
     return last(table, "load", "floor_over_punch");
 }
 
-/* Mean of the thirds of the wall. */
+/* Mean wall pressure over the thirds of the height. */
 static double wall(const struct gb_table *table, const char *branch)
 {
     return (last(table, branch, "wall_low_MPa") + last(table, branch, "wall_middle_MPa") +
@@ -54,7 +54,7 @@ static double wall(const struct gb_table *table, const char *branch)
            3.0;
 }
 
-/* Radial pressure over the mean of punch and floor. */
+/* Radial pressure over the mean of the pressures on punch and floor. */
 static double lateral_ratio(const struct gb_table *table)
 {
     const double axial =

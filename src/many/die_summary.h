@@ -3,23 +3,24 @@
 
 #include "many/runset.h"
 
-/* Numbers of a full die cycle, from curve.csv. */
+/* Figures of a full die cycle, from curve.csv. */
 struct gb_die_summary_row {
     const char *name; /* with its unit, as a column */
     const char *doc;
-    /* NaN where the run has none. */
+    /* NaN if the run does not have it. */
     double (*value)(const struct gb_table *table);
 };
 
-/* THE table; the last row has no name. */
+/* The table; the last row has no name. */
 const struct gb_die_summary_row *gb_die_summary_table(void);
 
-/* Mean and standard error over the runs of a group.  Returns how many have a value. */
+/* Mean and standard error over the runs of a group.  Returns the number of runs with a
+ * value. */
 size_t gb_die_summary_mean(const struct gb_die_summary_row *row,
                            const struct gb_runset *set, size_t group, double *mean,
                            double *error);
 
-/* Errors: GB_ERR_INPUT naming the first run that is no full die cycle that has ended. */
+/* Errors: GB_ERR_INPUT naming the first run that is not a completed full die cycle. */
 bool gb_die_summary_check(const struct gb_runset *set, struct gb_error *err);
 
 #endif

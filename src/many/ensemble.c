@@ -1,3 +1,7 @@
+/* Many runs, done by a pool of workers.  Several processes may do the same list: a run
+ * belongs to the process that holds the lock of its directory, and what others have
+ * done is found in the directories.  The queue submits runs in the order of the list.
+ * Runs of other processes are put back into the queue when their process leaves them. */
 #include "many/ensemble.h"
 
 #include <errno.h>
@@ -15,7 +19,7 @@
 
 /* Longest time between two calls of callbacks->cancelled. */
 static const double poll_s = 0.2;
-/* Callers are told what is waited for after that time. */
+/* The caller is told of a run that has been waited for this long. */
 static const double patience_s = 60.0;
 
 bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replicas,
@@ -51,11 +55,11 @@ struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_
     return &ensemble->run[replica * ensemble->points + point];
 }
 
-/* Is the directory that of a run under way, or may its files be replaced? */
+/* Is there an active run in the directory, or may its files be replaced? */
 static bool is_usable(const char *directory, struct gb_error *err)
 {
     struct gb_error why = {0};
-    for (int i = 0; i < 3; i++) { /* a run may end or begin there between the two */
+    for (int i = 0; i < 3; i++) { /* a run may start or end between the checks */
         if (gb_rundir_busy(directory) ||
             gb_rundir_check(directory, GB_RUNDIR_REPLACE, &why)) {
             return true;
@@ -72,7 +76,7 @@ static bool other_error(const struct gb_ensemble_run *run, struct gb_error *err)
                         run->directory);
 }
 
-/* When the status of a run was written; 0: there is none. */
+/* Time at which the status of a run was written; 0: no status. */
 static int64_t status_time(const struct gb_ensemble_run *run)
 {
     char *path = g_build_filename(run->directory, "status.json", NULL);
@@ -115,14 +119,14 @@ static bool has_converged(const struct gb_ensemble *ensemble, size_t point)
            ensemble->converged(ensemble, point, ensemble->data);
 }
 
-/* Runs to be submitted: none has a smaller index. */
+/* Runs to be submitted; `from` is the smallest index that may be left. */
 struct queue {
     size_t from;
-    double idle_since; /* clock; 0: runs are under way here */
+    double idle_since; /* clock when this process became idle; 0: it has active runs */
 };
 
-/* Whether this process has to do a run, after a look at what others have made of it.  In
- * this order: a run that ends between the two is done. */
+/* Must this process do the run?  Tests the lock before the files, so that a run that
+ * ends between the two tests counts as done. */
 static bool is_left(struct gb_ensemble_run *run)
 {
     run->elsewhere = gb_rundir_busy(run->directory);
@@ -141,7 +145,7 @@ static bool is_left(struct gb_ensemble_run *run)
     case GB_SINGLE_RUN_NOT_DONE:
         break;
     }
-    /* it fails here as well: a second try is for the next command */
+    /* another process failed at it, so it would fail here: left to the next command */
     run->before = run->ended = status_time(run) != run->status_ns &&
                                gb_single_run_failed(run->directory, &run->error);
     return !run->ended;
@@ -152,7 +156,7 @@ static bool is_of_part(const struct gb_ensemble *ensemble, size_t index)
     return ensemble->parts == 0 || index % ensemble->parts == ensemble->part;
 }
 
-/* The next run, in the order of the list; NULL when there is none now. */
+/* The next run in the order of the list; NULL: none at present. */
 static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct queue *queue)
 {
     const size_t runs = ensemble->points * ensemble->replicas;
@@ -166,8 +170,8 @@ static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct que
     return NULL;
 }
 
-/* Runs that can be submitted now.  Nothing is prefetched where the runs under way may be
- * enough. */
+/* Number of runs that can be submitted now.  Without a prefetch if the active runs may
+ * be enough for convergence. */
 static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *pool)
 {
     const size_t idle = gb_pool_idle(pool);
@@ -183,7 +187,7 @@ static void tell(const struct gb_ensemble *ensemble,
     }
 }
 
-/* False when no worker can be started. */
+/* Submits runs to idle workers.  False if no worker can be started. */
 static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
                    struct queue *queue, const struct gb_ensemble_callbacks *callbacks,
                    struct gb_error *err)
@@ -196,14 +200,14 @@ static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
             continue;
         }
         if (!gb_pool_submit(pool, ticket, &run->params, run->directory, err)) {
-            return gb_pool_busy(pool) > 0; /* with fewer workers then */
+            return gb_pool_busy(pool) > 0; /* continue with fewer workers */
         }
         run->submitted = true;
     }
     return true;
 }
 
-/* To be submitted again. */
+/* Puts a run back into the queue. */
 static void put_back(const struct gb_ensemble *ensemble, struct queue *queue,
                      struct gb_ensemble_run *run)
 {
@@ -211,7 +215,7 @@ static void put_back(const struct gb_ensemble *ensemble, struct queue *queue,
     queue->from = MIN(queue->from, (size_t)(run - ensemble->run));
 }
 
-/* Puts back the runs that other processes do no more. */
+/* Puts back the runs that other processes no longer compute. */
 static void follow(struct gb_ensemble *ensemble, struct queue *queue)
 {
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
@@ -222,7 +226,8 @@ static void follow(struct gb_ensemble *ensemble, struct queue *queue)
     }
 }
 
-/* Is there a run of other processes to be waited for?  Tells what is waited for too long. */
+/* Must this process wait for a run of another process?  Reports runs that take too
+ * long. */
 static bool waits(struct gb_ensemble *ensemble, struct queue *queue,
                   const struct gb_pool *pool,
                   const struct gb_ensemble_callbacks *callbacks)
@@ -313,7 +318,7 @@ size_t gb_ensemble_refresh(struct gb_ensemble *ensemble)
             continue;
         }
         if (own.ended && (left || run->error.code != GB_OK)) {
-            *run = own; /* it failed here, and no other process has done it since */
+            *run = own; /* it failed here and no other process has done it since then */
         } else if (left) {
             run->before = run->ended = gb_single_run_failed(run->directory, &run->error);
         }
@@ -365,7 +370,7 @@ bool gb_ensemble_check(const struct gb_ensemble *ensemble, const char *path,
         const struct gb_ensemble_run *run = &ensemble->run[i];
         if (run->ended && run->error.code != GB_OK) {
             first = first ? first : run;
-            /* a full disk says nothing about the scene */
+            /* a full disk is not an error of the scene */
             code = run->error.code == GB_ERR_MACHINE ? GB_ERR_MACHINE : code;
             failed++;
         }

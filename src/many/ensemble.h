@@ -7,9 +7,9 @@
 #include "greenbody/params.h"
 #include "many/pool.h"
 
-/* Many runs, a directory each: replicas (cells that differ by their seed) of one or more
- * scenes.  The results depend on the list alone, not on the number of workers or the order
- * in which they finish. */
+/* Many runs, a directory each: replicas (cells that differ by their seed) of one or
+ * more scenes.  The results depend on the list alone, not on the number of workers or
+ * the order in which they finish. */
 struct gb_ensemble_run {
     size_t point; /* which scene */
     size_t replica;
@@ -33,8 +33,8 @@ struct gb_ensemble {
     bool (*converged)(const struct gb_ensemble *ensemble, size_t point, void *data);
     void *data;
     bool leaves; /* runs that other processes do are left to them, not waited for */
-    /* Part `part` of `parts`, from 0: runs whose place in the list is that modulo parts; 0
-     * parts: all runs. */
+    /* Part `part` of `parts`, from 0: runs whose place in the list is that modulo
+     * parts; 0 parts: all runs. */
     size_t part, parts;
 };
 
@@ -49,9 +49,9 @@ void gb_ensemble_finish(struct gb_ensemble *ensemble); /* zeroed is fine */
 struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_t point,
                                        size_t replica);
 
-/* Marks the runs whose directories say that they are done; those that another process does
- * are left to it.  Errors: GB_ERR_INPUT for a directory with a run of other parameters, or
- * with other files: it is left as it is; those of gb_seed_check_cells. */
+/* Marks the runs whose directories say that they are done; those that another process
+ * does are left to it.  Errors: GB_ERR_INPUT for a directory with a run of other
+ * parameters, or with other files: it is left as it is; those of gb_seed_check_cells. */
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err);
 
 /* Callbacks of gb_ensemble_work; NULL members are not called. */
@@ -68,10 +68,11 @@ struct gb_ensemble_callbacks {
 };
 
 /* Does the runs of its part that have not ended.  One that fails is marked; the others
- * continue.  A run belongs to the process that holds the lock of its directory.  Those that
- * another process does, or has done or failed to do since gb_ensemble_find_done, are not
- * done twice.  It ends when they have ended there, and does the ones that were left
- * unfinished; an ensemble that `leaves` ends as soon as it has nothing to do itself.
+ * continue.  A run belongs to the process that holds the lock of its directory.  Those
+ * that another process does, or has done or failed to do since gb_ensemble_find_done,
+ * are not done twice.  It ends when they have ended there, and does the ones that were
+ * left unfinished; an ensemble that `leaves` ends as soon as it has nothing to do
+ * itself.
  *
  * Errors: GB_ERR_CANCELLED (the runs under way have stopped), GB_ERR_MACHINE when no
  * worker can be started at all. */
@@ -97,7 +98,8 @@ double gb_ensemble_remaining_s(const struct gb_ensemble *ensemble, size_t *runs)
 bool gb_ensemble_check(const struct gb_ensemble *ensemble, const char *path,
                        struct gb_error *err);
 
-/* Replicas of a point that count: up to the first for which it has converged, else all. */
+/* Replicas of a point that count: up to the first for which it has converged, else all.
+ */
 size_t gb_ensemble_used(const struct gb_ensemble *ensemble, size_t point);
 
 #endif

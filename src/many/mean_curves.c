@@ -7,7 +7,7 @@
 #include "many/runset.h"
 #include "measure/average.h"
 
-enum { GB_MEAN_CURVES_GRID = 4000 }; /* most points of a mean */
+enum { GB_MEAN_CURVES_GRID = 4000 }; /* largest number of points of a mean */
 
 bool gb_mean_curves_read(struct gb_mean_curves *curves, const struct gb_runset *set,
                          size_t group, const char *branch, const char *x, const char *y,
@@ -68,7 +68,7 @@ bool gb_mean_curves_mean(const struct gb_average_curve *curves, size_t members,
     return good;
 }
 
-/* Time of the last row of loading, ns. */
+/* Time of the last row of loading, ns; false if there is none. */
 static bool end_of_loading(const struct gb_runset_run *run, double *end,
                            struct gb_error *err)
 {

@@ -1,5 +1,7 @@
-/* A sweep of parameters: its points are runs of an ensemble, its tables are read back from
- * their directories. */
+/* A sweep of parameters.  The axes give the points (a grid or a Sobol design), each
+ * point has replicas, and an ensemble computes the runs.  A target of the standard
+ * error can end the replicas of a point early.  Tables are read back from the run
+ * directories, so they do not depend on which process computed a run. */
 
 #include "many/param_sweep.h"
 
@@ -30,9 +32,9 @@
 
 enum { COORDINATES_MOST = 40 };
 
-/* Coordinate `axis` (0 to 39) of the first points of a Sobol sequence (GSL; Antonov and
- * Saleev, USSR Comput. Maths Math. Phys. 19, 252 (1980)), each in [0, 1).  Errors:
- * GB_ERR_MEMORY. */
+/* Coordinate `axis` (0 to 39) of the first points of a Sobol sequence, each in [0, 1).
+ * Source: GSL; Antonov and Saleev, USSR Comput.  Maths Math.  Phys. 19, 252 (1980).
+ * Errors: GB_ERR_MEMORY. */
 static bool sobol_coordinate(size_t axis, size_t points, double *share,
                              struct gb_error *err)
 {
@@ -102,7 +104,7 @@ static bool set_value(const struct gb_axis *axis, struct gb_params *params,
                           : gb_params_set(params, axis->field, value, err);
 }
 
-/* Takes one value if the key does; *params holds the fallbacks. */
+/* Adds one value if it is valid for the key; *params has the defaults. */
 static bool add_value(struct gb_axis *axis, const char *text, struct gb_error *err)
 {
     struct gb_params params;
@@ -130,7 +132,7 @@ static bool add_value(struct gb_axis *axis, const char *text, struct gb_error *e
     return true;
 }
 
-/* A value that may lack its unit. */
+/* Adds a value, with `unit` if it lacks its own. */
 static bool add_with_unit(struct gb_axis *axis, const char *text, const char *unit,
                           struct gb_error *err)
 {
@@ -144,7 +146,8 @@ static bool add_with_unit(struct gb_axis *axis, const char *text, const char *un
     return good;
 }
 
-/* "0,1" with nothing else: 0.1 of a decimal comma, or 0 and 1? */
+/* Is the list just "0,1", which could be 0.1 with a decimal comma or the values 0 and
+ * 1? */
 static bool is_decimal_comma(const struct gb_axis *axis, const char *values)
 {
     const char *comma = strchr(values, ',');
@@ -153,15 +156,15 @@ static bool is_decimal_comma(const struct gb_axis *axis, const char *values)
            comma > values && g_ascii_isdigit(comma[-1]) && g_ascii_isdigit(comma[1]);
 }
 
-/* Has the key words of its own, in which every character counts? */
+/* Does the key have free text, in which every character counts? */
 static bool axes_is_free_text(const struct gb_axis *axis)
 {
     return axis->material ||
            (axis->field->type == GB_FIELD_TEXT && axis->field->choices == NULL);
 }
 
-/* What is between the values: ';', or ',' where there is none and the key's own values
- * cannot have one. */
+/* Separator of the values: ';', or ',' if the list has no ';' and the values of the key
+ * cannot contain a comma. */
 static const char *separator_of(const struct gb_axis *axis, const char *values)
 {
     return (axes_is_free_text(axis) && !axis->material) || strchr(values, ';') != NULL
@@ -202,7 +205,7 @@ struct range {
     const char *unit;
 };
 
-/* "0.05:0.4:8", "9.7:38:4 nm", "9.7 nm:38 nm:4", "1:100:3:log MPa". */
+/* Reads "0.05:0.4:8", "9.7:38:4 nm", "9.7 nm:38 nm:4", "1:100:3:log MPa". */
 static bool read_range(char **parts, struct range *range)
 {
     const guint length = g_strv_length(parts);
@@ -240,7 +243,7 @@ static bool add_range(struct gb_axis *axis, const char *text, const char *values
     bool good = read_range(parts, &range) || refuse(text, err);
     for (guint i = 0; good && i < (guint)range.count; i++) {
         char value[64];
-        /* twelve digits: 0.1 and not 0.10000000000000001 */
+        /* twelve digits, so that 0.1 is not written as 0.10000000000000001 */
         char *item = g_strconcat(
             g_ascii_formatd(value, sizeof value, "%.12g",
                             range_value(&range, (double)i / (range.count - 1.0))),
@@ -252,7 +255,7 @@ static bool add_range(struct gb_axis *axis, const char *text, const char *values
     return good;
 }
 
-/* "0.05:0.4", "9.7:38 nm", "9.7 nm:38 nm:log": a range without its count. */
+/* Reads a range without a count: "0.05:0.4", "9.7:38 nm", "9.7 nm:38 nm:log". */
 static bool read_design_range(char **parts, struct range *range)
 {
     const guint length = g_strv_length(parts);
@@ -294,7 +297,7 @@ static bool add_design(struct gb_axes *axes, const char *text, const char *value
     return good;
 }
 
-/* The row of "group.key", or of a key that only one group has, if it can be varied. */
+/* The row of "group.key", or of a key that only one group has, if it may be varied. */
 static const struct gb_field *find_field(const struct gb_axes *axes, const char *name,
                                          struct gb_error *err)
 {
@@ -386,7 +389,7 @@ const char *gb_param_sweep_value(const struct gb_axes *axes, size_t point, size_
 bool gb_param_sweep_apply(const struct gb_axes *axes, size_t point,
                           struct gb_params *params, struct gb_error *err)
 {
-    /* a material first: it sets keys that other axes may set again */
+    /* materials first: they set keys that other axes may set again */
     for (size_t i = 0; i < 2 * axes->count; i++) {
         const size_t at = i % axes->count;
         const struct gb_axis *axis = &axes->axis[at];
@@ -398,8 +401,8 @@ bool gb_param_sweep_apply(const struct gb_axes *axes, size_t point,
     return gb_params_check(params, err);
 }
 
-/* The unit in which a column is written: the one of all values (*same), else "" for SI.
- * Numbers without a unit and words have "", too. */
+/* Unit of a column: the unit of all values (*same), else "" for SI.  Numbers without a
+ * unit and words also have "". */
 static const char *column_unit(const struct gb_axis *axis, bool *same)
 {
     double number = 0.0;
@@ -440,12 +443,12 @@ char *gb_param_sweep_cell(const struct gb_axes *axes, size_t point, size_t axis,
                               NULL)) {
         g_ascii_formatd(buffer, (gint)size, "%.15g", number);
     } else {
-        g_strlcpy(buffer, value, size); /* "0.008 d" among lengths: as it stands */
+        g_strlcpy(buffer, value, size); /* "0.008 d" among lengths stays as typed */
     }
     return buffer;
 }
 
-/* Is the key alone enough to tell this axis from the others? */
+/* Does no other axis have the same key without its group? */
 static bool is_key_unique(const struct gb_axes *axes, size_t axis)
 {
     for (size_t i = 0; i < axes->count; i++) {
@@ -474,9 +477,9 @@ char *gb_param_sweep_point_name(const struct gb_axes *axes, size_t point)
     return g_string_free(name, FALSE);
 }
 
-/* --- pressures ------------------------------------------------------------------------ */
+/* --- pressures ---------------------------------------------------------------------- */
 
-/* Default pressures reach from the first to the second, MPa. */
+/* Range of the default pressures, MPa. */
 static const double least_mpa = 1.0;
 static const double most_mpa = 1e5;
 
@@ -550,7 +553,7 @@ void gb_param_sweep_default_pressures(struct gb_sweep_table_pressures *at,
     sort_pressures(at);
 }
 
-/* --- figures of a point --------------------------------------------------------------- */
+/* --- figures of a point ------------------------------------------------------------- */
 
 typedef bool read_figures(const struct gb_table *curve, double pressure_pa,
                           double values[GB_READING_QUANTITIES]);
@@ -617,9 +620,9 @@ const double *gb_param_sweep_readings_at(const struct gb_sweep_readings *reading
     return cell(readings, branch, pressure, quantity);
 }
 
-/* --- target of the standard error ----------------------------------------------------- */
+/* --- target of the standard error --------------------------------------------------- */
 
-/* The scatter of fewer replicas is too uncertain to stop at. */
+/* The scatter of fewer replicas is too uncertain to stop. */
 enum { REPLICAS_MIN = 4 };
 
 bool gb_param_sweep_target(struct gb_sweep_target *target, const char *text,
@@ -638,7 +641,7 @@ bool gb_param_sweep_target(struct gb_sweep_target *target, const char *text,
                                 text);
 }
 
-/* The density of a run that has ended; its curve is read once. */
+/* The density of a run that has ended; reads its curve only once. */
 static double density_of(const struct gb_sweep_target *target,
                          const struct gb_ensemble *ensemble,
                          const struct gb_ensemble_run *run)
@@ -658,7 +661,7 @@ static double density_of(const struct gb_sweep_target *target,
     return target->density[i];
 }
 
-/* The first k replicas have all ended and are enough, for some k. */
+/* Are the first k replicas enough for some k, all of them having ended? */
 static bool has_converged(const struct gb_ensemble *ensemble, size_t point, void *data)
 {
     const struct gb_sweep_target *target = data;
@@ -679,8 +682,8 @@ static bool has_converged(const struct gb_ensemble *ensemble, size_t point, void
     return enough;
 }
 
-/* Makes it the convergence test of the ensemble; target must outlive the work.  Errors:
- * GB_ERR_MEMORY.  gb_param_sweep_target_finish is due. */
+/* Sets the target as the convergence test of the ensemble; target must outlive the
+ * work.  Errors: GB_ERR_MEMORY. gb_param_sweep_target_finish must be called. */
 static bool sweep_target_apply(struct gb_sweep_target *target,
                                struct gb_ensemble *ensemble, struct gb_error *err)
 {
@@ -711,14 +714,14 @@ size_t gb_param_sweep_missed(const struct gb_sweep_target *target,
     return missed;
 }
 
-/* --- tables --------------------------------------------------------------------------- */
+/* --- tables ------------------------------------------------------------------------- */
 
-/* The tables of a sweep.  Both depend on the run directories alone: they are the same for
- * any number of workers and restarts. */
+/* The tables of a sweep depend only on the run directories.  They are the same for any
+ * number of workers and restarts. */
 
-/* What runs that are done have not reached: goals of their loading, equilibrium of points. */
+/* Goals of the loading and equilibrium that completed runs did not reach. */
 
-/* The words of the run itself, g_free; NULL: it has reached everything, or is not done. */
+/* The text from the run itself, g_free.  NULL: it reached everything, or is not done. */
 static char *sweep_shortfall_text(const struct gb_ensemble_run *run)
 {
     struct gb_snapshot shot = {0};
@@ -744,7 +747,7 @@ size_t gb_param_sweep_shortfalls(const struct gb_ensemble *ensemble)
     return runs;
 }
 
-/* The varied values of a point as cells; numbers in the unit that the column names. */
+/* Adds the varied values of a point as cells; numbers have the unit of the column. */
 static void add_values(struct gb_listing *listing, const struct gb_axes *axes,
                        size_t point)
 {
@@ -798,7 +801,7 @@ static struct gb_listing *new_means(const struct gb_axes *axes,
         "the mean\npressure over the compressed axes first reaches p_MPa; unload: "
         "after unloading from it");
     const size_t shortfalls = gb_param_sweep_shortfalls(ensemble);
-    if (shortfalls > 0) { /* runs that count although they fell short */
+    if (shortfalls > 0) { /* runs that are used although they missed a goal */
         char *note =
             g_strdup_printf("runs that missed a goal or have points that are not "
                             "in equilibrium: %zu (runs.csv)",
@@ -866,9 +869,9 @@ GString *gb_param_sweep_runs(const struct gb_ensemble *ensemble)
     return gb_listing_end(listing, GB_LISTING_CSV);
 }
 
-/* --- the sweep ------------------------------------------------------------------------ */
+/* --- the sweep ---------------------------------------------------------------------- */
 
-/* Parameters and directory of every run. */
+/* Sets the parameters and the directory of every run. */
 static bool fill_runs(struct gb_param_sweep *sweep, const struct gb_params *params,
                       const char *directory, struct gb_error *err)
 {
@@ -879,7 +882,7 @@ static bool fill_runs(struct gb_param_sweep *sweep, const struct gb_params *para
             return false;
         }
         run->params.seed += run->replica;
-        /* the cores are shared by the runs, not by threads of each */
+        /* runs share the cores, so each run has one thread */
         run->params.threads = run->params.threads > 0 ? run->params.threads : 1;
         char *name = gb_param_sweep_point_name(&sweep->axes, run->point);
         run->directory = g_strdup_printf("%s/%s_seed-%" G_GUINT64_FORMAT, directory, name,

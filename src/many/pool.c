@@ -1,5 +1,6 @@
-/* A pool of worker processes: each takes one run after the other over a socket and answers
- * with a message of one byte when its run is loaded, and with an error when it has ended. */
+/* A pool of worker processes.  Each worker receives one run after the other over a
+ * socket.  It answers with a message of one byte when only the files of the run are
+ * left to be written, and with a report when the run has ended. */
 
 #include "many/pool.h"
 
@@ -28,15 +29,16 @@
 
 enum { COUNT_MOST = 10000000, TEXT_BYTES = 16384 };
 
-/* Variables of one launcher. */
+/* Environment variables of one launcher. */
 struct variables {
     const char *rank, *count, *local_count;
-    bool all; /* must be there, the last one too */
+    bool all; /* all must be set, including the last one */
 };
 
-/* The first that fits: mpirun inside a job of Slurm sees the variables of the job as well,
- * and srun sets some of PMI.  SLURM_STEP_TASKS_PER_NODE is as "4(x2),3": the first number,
- * right for steps that are spread evenly. */
+/* The first launcher whose variables are set is used: mpirun inside a Slurm job also
+ * sees the variables of the job, and srun sets some variables of PMI.
+ * SLURM_STEP_TASKS_PER_NODE is like "4(x2),3"; its first number is right for steps that
+ * are spread evenly. */
 static const struct variables launchers[] = {
     {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_LOCAL_SIZE", false},
     {"PMI_RANK", "PMI_SIZE", "MPI_LOCALNRANKS", true},
@@ -44,7 +46,7 @@ static const struct variables launchers[] = {
     {"PMI_RANK", "PMI_SIZE", "PMI_LOCAL_SIZE", false},
 };
 
-/* A number of the environment; `otherwise` where it is not there or no such number. */
+/* A number from the environment; `otherwise` if it is missing or invalid. */
 static long read_number(const char *name, long otherwise)
 {
     const char *text = getenv(name);
@@ -54,7 +56,7 @@ static long read_number(const char *name, long otherwise)
                                                                             : otherwise;
 }
 
-/* Tasks of an array are jobs of their own, each with its processors. */
+/* Adds the tasks of an array, which are separate jobs with their own processors. */
 static void add_array(struct gb_launch *launch)
 {
     const long tasks = read_number("SLURM_ARRAY_TASK_COUNT", 0);
@@ -85,7 +87,7 @@ struct gb_launch gb_pool_launch(void)
     return launch;
 }
 
-/* The beginning of a file of the kernel, which has no size before it is read. */
+/* Reads the beginning of a kernel file, whose size is unknown before reading. */
 static bool read_text(const char *path, char text[TEXT_BYTES])
 {
     const int file = gb_file_open(path, NULL);
@@ -97,7 +99,7 @@ static bool read_text(const char *path, char text[TEXT_BYTES])
     return length > 0;
 }
 
-/* cpu.max of one cgroup, "400000 100000" or "max 100000": processors, rounded up. */
+/* Processors from cpu.max of one cgroup, "400000 100000" or "max 100000", rounded up. */
 static long read_quota(const char *folder)
 {
     char *path = g_build_filename(folder, "cpu.max", NULL);
@@ -149,7 +151,7 @@ static long own_quota(void)
 
 long gb_pool_cores(const struct gb_launch *launch)
 {
-    const long own = (long)g_get_num_processors(); /* of the affinity */
+    const long own = (long)g_get_num_processors(); /* from the affinity mask */
     long together = MAX(sysconf(_SC_NPROCESSORS_ONLN), own);
     const long allocated = read_number("SLURM_CPUS_ON_NODE", 0), quota = own_quota();
     together = allocated > 0 ? MIN(together, allocated) : together;
@@ -157,15 +159,15 @@ long gb_pool_cores(const struct gb_launch *launch)
     return CLAMP(together / launch->local_count, 1, own);
 }
 
-/* --- in the process of a worker ------------------------------------------------------- */
+/* --- in the process of a worker ----------------------------------------------------- */
 
-/* Message to a worker: parameters, and the name of the directory at its own length. */
+/* Message to a worker: parameters, and the name of the directory without padding. */
 struct run_message {
     struct gb_params params;
     char directory[PATH_MAX];
 };
 
-/* SIGTERM stays blocked; it is polled between two slices. */
+/* SIGTERM stays blocked and is polled between slices. */
 static bool is_cancelled(void *data)
 {
     sigset_t pending;
@@ -173,7 +175,7 @@ static bool is_cancelled(void *data)
     return sigpending(&pending) == 0 && sigismember(&pending, SIGTERM) == 1;
 }
 
-/* Waits for the next run; false when the pool has closed the socket. */
+/* Waits for the next run.  False if the pool has closed the socket. */
 static bool receive_run(int fd, struct run_message *message)
 {
     ssize_t got = 0;
@@ -183,15 +185,15 @@ static bool receive_run(int fd, struct run_message *message)
     return got > (ssize_t)sizeof message->params;
 }
 
-/* A message of one byte: a report is longer. */
+/* Sends the message of one byte; a report is longer. */
 static void send_loaded(void *data)
 {
     const int *fd = data;
     (void)!send(*fd, "", 1, MSG_NOSIGNAL);
 }
 
-/* The worker's loop; never returns.  The terminal sends SIGINT to all processes: workers
- * ignore it, the parent handles it and sends SIGTERM. */
+/* Loop of a worker; never returns.  The terminal sends SIGINT to all processes: workers
+ * ignore it, and the parent handles it and sends SIGTERM. */
 static void serve(gb_pool_work *work, pid_t parent, int fd)
 {
     struct run_message *message = gb_alloc_array(1, sizeof *message, NULL);
@@ -207,17 +209,16 @@ static void serve(gb_pool_work *work, pid_t parent, int fd)
     _exit(0);
 }
 
-/* --- a worker, in the process of the pool --------------------------------------------- */
+/* --- a worker, in the process of the pool ------------------------------------------- */
 
-/* One process of a pool, which does the runs sent to it one after the other.  All zero but
- * fd = -1: no process. */
+/* A process of the pool.  All zero except fd = -1: not started. */
 struct worker {
     pid_t pid; /* 0: none yet */
     int fd;    /* socket: runs to the worker, reports from it; -1: none */
     bool busy, stopped;
     bool writing; /* busy, but its run is loaded and only files are being written */
     size_t ticket;
-    double since; /* s, of the monotonic clock */
+    double since; /* clock when it was submitted, s */
 };
 
 static pid_t fork_worker(const struct worker *worker, size_t count, gb_pool_work *work,
@@ -227,11 +228,12 @@ static pid_t fork_worker(const struct worker *worker, size_t count, gb_pool_work
     const pid_t parent = getpid();
     sigemptyset(&term);
     sigaddset(&term, SIGTERM);
-    sigprocmask(SIG_BLOCK, &term, &before); /* before the fork: none is lost */
+    sigprocmask(SIG_BLOCK, &term, &before); /* before the fork, so that none is lost */
     const pid_t pid = fork();
     if (pid == 0) {
         close(ends[0]);
-        /* an inherited socket would hide the end of the pool from the other workers */
+        /* workers must not inherit sockets of others, which would hide that the pool
+         * has closed them */
         for (size_t i = 0; i < count; i++) {
             if (worker[i].fd >= 0) {
                 close(worker[i].fd);
@@ -265,7 +267,7 @@ static bool begin(struct worker *worker, size_t count, size_t index, gb_pool_wor
     return true;
 }
 
-/* Sends a run as one message; false when the process is gone. */
+/* Sends a run as one message; false if the process has ended. */
 static bool send_run(const struct worker *worker, const struct gb_params *params,
                      const char *directory)
 {
@@ -298,7 +300,7 @@ static void set_exit_error(int status, struct gb_error *error)
     }
 }
 
-/* Ends the process of an idle worker, if there is one. */
+/* Ends an idle worker's process, if it has one. */
 static void worker_end(struct worker *worker)
 {
     if (worker->pid != 0) {
@@ -308,10 +310,10 @@ static void worker_end(struct worker *worker)
     *worker = (struct worker){.fd = -1};
 }
 
-/* Sends a run to worker[index], which is idle; starts its process first where there is
- * none.  worker[count] are all of the pool: a new process closes the sockets of the
- * others.  Errors: GB_ERR_MACHINE (no process, no socket), GB_ERR_INPUT (the name of the
- * directory is too long). */
+/* Sends a run to worker[index], which must be idle, and starts its process if
+ * necessary. worker[count] are all workers of the pool, because a new process closes
+ * the sockets of the others.  Errors: GB_ERR_MACHINE (no process, no socket),
+ * GB_ERR_INPUT (the name of the directory is too long). */
 static bool worker_submit(struct worker *worker, size_t count, size_t index,
                           gb_pool_work *work, size_t ticket,
                           const struct gb_params *params, const char *directory,
@@ -322,7 +324,7 @@ static bool worker_submit(struct worker *worker, size_t count, size_t index,
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: the name is too long", directory);
     }
     bool sent = own->pid != 0 && send_run(own, params, directory);
-    if (!sent) { /* no process yet, or it died while it was idle */
+    if (!sent) { /* no process yet, or it died while idle */
         worker_end(own);
         if (!begin(worker, count, index, work, err)) {
             return false;
@@ -341,8 +343,8 @@ static bool worker_submit(struct worker *worker, size_t count, size_t index,
     return true;
 }
 
-/* Receives a message of a busy worker whose fd is readable: true for its report, or the end
- * of its process; false for the message that its run is loaded. */
+/* Receives a message from a busy worker with a readable fd.  True: a report, or its
+ * process ended.  False: its run is loaded. */
 static bool worker_receive(struct worker *worker, struct gb_pool_report *report)
 {
     ssize_t got = 0;
@@ -367,23 +369,23 @@ static bool worker_receive(struct worker *worker, struct gb_pool_report *report)
     return true;
 }
 
-/* Asks the run of a busy worker to stop; it still reports.  Its process ends after that. */
+/* Asks a busy worker to stop its run.  It still reports, then its process ends. */
 static void worker_stop(struct worker *worker)
 {
     worker->stopped = true;
     kill(worker->pid, SIGTERM);
 }
 
-/* --- the pool ------------------------------------------------------------------------- */
+/* --- the pool ----------------------------------------------------------------------- */
 
 struct gb_pool {
     gb_pool_work *work;
     struct worker *worker;
     struct pollfd *poll;  /* of workers with a run, ... */
     size_t *polled;       /* ... and their indices */
-    size_t count;         /* runs that load at once */
-    size_t slots;         /* workers: as many again may be writing their files */
-    size_t busy, writing; /* workers with a run; those of them that only write files */
+    size_t count;         /* runs loaded at the same time */
+    size_t slots;         /* workers: twice `count`, since half may be writing files */
+    size_t busy, writing; /* workers with a run; those that only write files */
 };
 
 bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
@@ -441,7 +443,7 @@ bool gb_pool_submit(struct gb_pool *pool, size_t ticket, const struct gb_params 
     return given;
 }
 
-/* The message of worker i; true for a report. */
+/* Reads a message of worker i; true for a report. */
 static bool read_worker(struct gb_pool *pool, size_t i, struct gb_pool_report *report)
 {
     const bool wrote = pool->worker[i].writing;
@@ -454,7 +456,7 @@ static bool read_worker(struct gb_pool *pool, size_t i, struct gb_pool_report *r
 
 bool gb_pool_receive(struct gb_pool *pool, double seconds, struct gb_pool_report *report)
 {
-    size_t count = 0; /* no more than there are open files, or poll refuses */
+    size_t count = 0; /* only open sockets: poll limits the number */
     for (size_t i = 0; i < pool->slots; i++) {
         if (pool->worker[i].busy) {
             pool->poll[count] = (struct pollfd){pool->worker[i].fd, POLLIN, 0};

@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 
-/* Branches are named by pressures of a few digits. */
+/* Relative tolerance: names of branches contain pressures with few digits. */
 static const double same_pressure = 1e-6;
 
 static const char *const names[GB_READING_QUANTITIES] = {
@@ -41,7 +41,7 @@ bool gb_reading_open(struct gb_table **out, const char *directory, struct gb_err
     return good;
 }
 
-/* All figures between two rows; share 0 is the first, 1 the second. */
+/* Interpolates all figures between two rows; share 0 is the first row, 1 the second. */
 static void read_between(const struct gb_table *curve, size_t low, size_t high,
                          double share, double values[GB_READING_QUANTITIES])
 {
@@ -58,7 +58,7 @@ bool gb_reading_loaded(const struct gb_table *curve, double pressure_pa,
     const double *pressure = gb_table_column(curve, "p_MPa", NULL);
     const double level = pressure_pa / 1e6;
     const size_t none = gb_table_rows(curve);
-    size_t before = none; /* the row of loading before; others may lie between */
+    size_t before = none; /* previous row of loading; others may be between */
     for (size_t i = 0; i < none; i++) {
         if (strcmp(gb_table_word(curve, i), "load") != 0 || isnan(pressure[i])) {
             continue;
@@ -76,7 +76,7 @@ bool gb_reading_loaded(const struct gb_table *curve, double pressure_pa,
     return false;
 }
 
-/* Is this the word of the branch that unloads from here: "unload:100MPa"? */
+/* Is this the branch that unloads from this pressure: "unload:100MPa"? */
 static bool is_unloading(const char *word, double pressure_pa)
 {
     double from = 0.0;
@@ -109,7 +109,7 @@ double gb_reading_unloading_modulus(const struct gb_table *curve, double pressur
         if (!is_unloading(gb_table_word(curve, i), pressure_pa) || pressure[i] > half) {
             continue;
         }
-        /* the row before is of the same branch, or the last of loading */
+        /* the previous row is of the same branch, or the last row of loading */
         double from[GB_READING_QUANTITIES];
         const double share = (pressure[i - 1] - half) / (pressure[i - 1] - pressure[i]);
         const double at = density[i - 1] + share * (density[i] - density[i - 1]);

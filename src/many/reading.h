@@ -5,8 +5,8 @@
 
 #include "base/table.h"
 
-/* What a finished run says at a pressure: the figures that sweeps tabulate and
- * calibrations compare. */
+/* Figures of a finished run at a pressure, for the tables of sweeps and for
+ * calibration. */
 enum gb_reading_quantity {
     GB_READING_DENSITY,
     GB_READING_COORDINATION,
@@ -18,25 +18,25 @@ enum gb_reading_quantity {
     GB_READING_QUANTITIES
 };
 
-/* Column of curve.csv. */
+/* Column of curve.csv with this quantity. */
 const char *gb_reading_name(enum gb_reading_quantity quantity);
 
-/* Reads curve.csv of a run directory; gb_table_destroy.  Errors: those of gb_table_read
- * and of missing columns. */
+/* Reads curve.csv of a run directory (gb_table_destroy).  Errors: see gb_table_read;
+ * missing columns. */
 bool gb_reading_open(struct gb_table **out, const char *directory, struct gb_error *err);
 
 /* The figures where the pressure over the compressed axes first reaches pressure_pa on
- * loading, by linear interpolation; false (all NaN) when it never does. */
+ * loading, interpolated linearly.  False, and all NaN, if it never does. */
 bool gb_reading_loaded(const struct gb_table *curve, double pressure_pa,
                        double values[GB_READING_QUANTITIES]);
 
-/* The figures after unloading from pressure_pa: the last point of that branch. */
+/* The figures after unloading from pressure_pa: the last point of this branch. */
 bool gb_reading_unloaded(const struct gb_table *curve, double pressure_pa,
                          double values[GB_READING_QUANTITIES]);
 
-/* Secant modulus of unloading from pressure_pa to half of it, Pa: the fall of the pressure
- * over the logarithm of the ratio of densities, which with fixed side walls is the axial
- * strain.  NaN where the branch is missing. */
+/* Secant modulus of unloading from pressure_pa to half of it, Pa: the fall of the
+ * pressure over the logarithm of the density ratio, which is the axial strain if the
+ * side walls are fixed.  NaN if the branch is missing. */
 double gb_reading_unloading_modulus(const struct gb_table *curve, double pressure_pa);
 
 #endif

@@ -11,7 +11,9 @@
 #include "io/status_json.h"
 #include "scene/seed.h"
 
-/* Comparison of two scenes key by key. */
+/* A set of finished runs, grouped into experiments.  The first part compares two scenes
+ * key by key, then runs are read and grouped, groups are labelled by the keys that
+ * differ, and points of branches are selected from the curves. */
 
 static bool is_listed(const struct gb_field *field, const char *const *list)
 {
@@ -26,14 +28,13 @@ static bool is_listed(const struct gb_field *field, const char *const *list)
     return false;
 }
 
-/* What is drawn by lot, and what changes no result. */
+/* Keys of random numbers, and keys that change no result. */
 bool gb_runset_bookkeeping(const struct gb_field *field)
 {
     return field->no_result || field->type == GB_FIELD_SEED;
 }
 
-/* Whether both scenes have the same value of a key. */
-/* As a preset would write them: equal texts are equal values. */
+/* Compares values as preset text: equal texts are equal values. */
 static bool key_difference_equal(const struct gb_field *field, const struct gb_params *a,
                                  const struct gb_params *b)
 {
@@ -86,14 +87,14 @@ static bool read_run(struct gb_runset_run *run, const char *directory,
     return good;
 }
 
-/* Equal seeds, or a seed on which nothing depends, make one cell of equal presets. */
+/* Do the scenes give the same cell: equal seeds, or no dependence on the seed? */
 static bool is_one_cell(const struct gb_params *a, const struct gb_params *b)
 {
     return a->seed == b->seed ||
            (!gb_seed_matters(a) && !gb_seed_matters(b) && a->from.sum == b->from.sum);
 }
 
-/* Joins the run to the group of an earlier one, or founds the next. */
+/* Adds the run to the group of an earlier run, or starts a new group. */
 static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
 {
     struct gb_runset_run *run = &set->run[index];
@@ -121,8 +122,8 @@ static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
     return true;
 }
 
-/* The group that a run belongs to among those before it; the number of groups so far when
- * it is a new one. */
+/* The group of a run among the runs before it.  If it starts a new one, the number of
+ * groups so far. */
 static size_t group_of(const struct gb_runset *set, size_t index, const char *const *keys)
 {
     const struct gb_runset_run *run = &set->run[index];
@@ -250,8 +251,8 @@ size_t gb_runset_members(const struct gb_runset *set, size_t group)
     return members;
 }
 
-/* Between groups, of one title when that is given: within a group, keys may differ that
- * were merged. */
+/* Does the key differ between groups (of one title, if given)?  Within a group, keys
+ * that were merged may differ. */
 static bool differs_somewhere(const struct gb_runset *set, const struct gb_field *field,
                               const struct gb_params *params, const char *title)
 {
@@ -323,8 +324,8 @@ const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t 
                                    &gb_runset_first(set, b)->params, ignored);
 }
 
-/* Points of a branch (NULL: of all) where x is there; of those that are in equilibrium, or
- * of the others.  The arrays are allocated also when there is no point. */
+/* Selects points of a branch (NULL: all) that have x: those in equilibrium, or the
+ * others.  Allocates the arrays even if there is no point. */
 static bool select_points(const struct gb_runset_run *run, const char *branch,
                           const char *x, const char *y, bool unrelaxed, double **xs,
                           double **ys, size_t *count, struct gb_error *err)

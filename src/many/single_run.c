@@ -16,7 +16,7 @@ static const char stopped_text[] = "stopped on request";
 
 struct single_run {
     struct gb_run_loop loop;
-    const struct gb_params *first; /* up to the first point; NULL: the run's own */
+    const struct gb_params *first; /* up to the first point; NULL: as the run */
     const struct gb_pool_callbacks *callbacks; /* NULL: none */
 };
 
@@ -40,14 +40,14 @@ static void on_end(void *data)
     }
 }
 
-/* Text of the error that gb_single_run_is_taken knows again. */
+/* Error text, by which gb_single_run_is_taken recognises the error. */
 static const char taken_text[] = "another process does this run or has done it";
 
-/* Times that a directory is tried in which other processes begin and end runs. */
+/* Attempts at a directory in which other processes start and end runs. */
 enum { TRIES = 10 };
 
-/* Locks the directory before the packing is built, so that another process leaves the run
- * alone and does another one. */
+/* Locks the directory before the packing is built, so that other processes skip this
+ * run. */
 static bool claim(struct single_run *run, const struct gb_params *params,
                   const char *directory, enum gb_rundir_mode mode, struct gb_error *err)
 {
@@ -65,10 +65,11 @@ static bool claim(struct single_run *run, const struct gb_params *params,
     return false;
 }
 
-/* Evaluations between two looks at the callbacks. */
+/* Evaluations between two polls of the callbacks. */
 enum { SLICE = 1000 };
 
-/* The experiment of params, from the first point of one with other parameters. */
+/* Creates the experiment of params from the first point of a run with other parameters.
+ */
 static bool create_after(struct gb_experiment **out, struct single_run *run,
                          const struct gb_params *params, struct gb_error *err)
 {
@@ -98,7 +99,8 @@ static bool begin(struct single_run *run, const struct gb_params *params,
     if (!(run->first != NULL
               ? create_after(&experiment, run, params, err)
               : gb_experiment_create(&experiment, params, is_cancelled, run, err))) {
-        /* a scene that fails stays, with its status: other processes do not try it again */
+        /* a failed scene keeps its directory and status, so that other processes do not
+         * repeat it */
         const bool of_scene = err->code == GB_ERR_GUARD ||
                               err->code == GB_ERR_NOT_CONVERGED ||
                               err->code == GB_ERR_INPUT;
