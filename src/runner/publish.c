@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* The middle index carries this bit while the reader has not yet taken its slot. */
+/* Bit of the middle index, set until the reader has taken the slot. */
 static const unsigned fresh = 4;
 static const unsigned index_mask = 3;
 
@@ -13,8 +13,8 @@ void gb_publish_slots_init(struct gb_publish_slots *slots)
     slots->front = 2;
 }
 
-/* Release: the slot's content goes out with its index.  Acquire: the slot that comes back
- * is no longer read by the other side. */
+/* Release: publishes the contents of the slot with its index.  Acquire: the other side
+ * no longer reads the slot that is returned. */
 void gb_publish_slots_swap(struct gb_publish_slots *slots)
 {
     const unsigned old = atomic_exchange_explicit(&slots->middle, slots->back | fresh,
@@ -24,7 +24,7 @@ void gb_publish_slots_swap(struct gb_publish_slots *slots)
 
 bool gb_publish_slots_take(struct gb_publish_slots *slots)
 {
-    /* Only the reader clears the bit, so it cannot vanish between the two steps. */
+    /* Only the reader clears the bit, so it stays set until the exchange. */
     if (!(atomic_load_explicit(&slots->middle, memory_order_relaxed) & fresh)) {
         return false;
     }
@@ -67,8 +67,8 @@ void gb_command_ring_init(struct gb_command_ring *ring)
     atomic_init(&ring->tail, 0);
 }
 
-/* head and tail count all commands ever pushed and popped; unsigned wrap-around keeps
- * their difference right because the ring's size divides the range. */
+/* head and tail count all commands pushed and popped.  Unsigned wrap-around keeps their
+ * difference correct because the size of the ring divides the range. */
 bool gb_command_ring_push(struct gb_command_ring *ring, struct gb_command command)
 {
     const unsigned head = atomic_load_explicit(&ring->head, memory_order_relaxed);

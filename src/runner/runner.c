@@ -1,8 +1,8 @@
-/* A run in a background thread, for the screen.  The engine thread computes a run of its own;
- * the follow thread reads the directory of a run that another process computes.  Both hand
- * snapshots and view samples to the screen without a lock (publish.h), and take commands from
- * a ring.  A paused engine sleeps on a condition. */
-
+/* A run in a background thread, for the screen.  The engine thread computes a run of
+ * its own; the follow thread reads the directory of a run that another process
+ * computes.  Both pass snapshots and view samples to the screen without a lock
+ * (publish.h) and read commands from a ring.  A paused engine sleeps on a condition
+ * variable. */
 #include "runner/runner.h"
 
 #include <glib.h>
@@ -257,56 +257,57 @@ enum { EVENTS = 256 }; /* the last ones are kept */
 struct gb_runner {
     /* const once the thread runs */
     struct gb_params params;
-    struct gb_simulation *simulation; /* of the thread, except for the curve */
+    struct gb_simulation *simulation; /* used by the thread, except for the curve */
     char *directory;                  /* NULL: not recorded */
     bool resumed;                     /* continues the run in its directory */
     pthread_t thread;
-    bool joined; /* the thread has ended; of the screen */
+    bool joined; /* the thread was joined; used by the screen */
 
     /* shared without a lock: see publish.h */
     struct gb_publish publish;
-    struct gb_publish_slots view_slots; /* of the view samples */
+    struct gb_publish_slots view_slots; /* for the view samples */
     struct gb_view_sample view[3];
-    struct gb_view_start view_start; /* of the thread alone */
+    struct gb_view_start view_start; /* used by the thread only */
     struct gb_command_ring ring;
 
     /* guarded by the mutex: a paused engine sleeps on wake */
     pthread_mutex_t mutex;
     pthread_cond_t wake;
     bool quit;
-    int64_t stored;          /* GB_COMMAND_STORE done so far */
+    int64_t stored;          /* number of GB_COMMAND_STORE done */
     bool forked;             /* record holds the requested state */
-    size_t forked_points;    /* of the curve, at that state */
-    struct gb_record record; /* of the engine until forked, then of the screen */
-    int64_t events;          /* number of all so far */
+    size_t forked_points;    /* points of the curve at that state */
+    struct gb_record record; /* used by the engine until forked, then by the screen */
+    int64_t events;          /* number of events so far */
     char event[EVENTS][GB_EVENT_TEXT];
 
-    /* of the thread alone */
+    /* used by the thread only */
     bool paused, stop;
     bool yielded;      /* sleeps while another engine computes */
     bool view_wanted;  /* view samples are taken */
-    bool store_wanted; /* state.h5 is written between two slices */
-    bool fork_wanted;  /* the state of the next loading point is handed over */
-    double published_s, publish_cost_s; /* clock reading; seconds that filling took */
-    double sampled_s, sample_cost_s;    /* the same of the view sample */
+    bool store_wanted; /* write state.h5 after the present slice */
+    bool fork_wanted;  /* hand over the state of the next loading point */
+    double published_s, publish_cost_s; /* clock reading; time to fill it, s */
+    double sampled_s, sample_cost_s;    /* the same for the view sample */
 };
 
-/* What the simulation keeps of the run. */
+/* The run loop of the simulation. */
 static struct gb_run_loop *loop_of(const struct gb_runner *runner)
 {
     return &runner->simulation->loop;
 }
 
-/* --- what the threads publish --------------------------------------------------------- */
+/* --- what the threads publish ------------------------------------------------------- */
 
-/* The screen draws at most ten frames per second, and each snapshot costs a sweep over
- * the contacts: the shortest interval (s), and the largest share of the engine's time. */
+/* Shortest interval between snapshots (s), and their largest fraction of the engine's
+ * time.  The screen draws at most ten frames per second, and each snapshot costs a
+ * sweep over the contacts. */
 static const double publish_every_s = 0.05, publish_share = 0.1;
 
 /* The same for view samples, which change slowly and cost more. */
 static const double view_every_s = 0.25, view_share = 0.03;
 
-/* GB_COMMAND_STORE is done. */
+/* Counts a GB_COMMAND_STORE as done. */
 static void publish_stored(struct gb_runner *runner)
 {
     runner->store_wanted = false;
@@ -324,8 +325,8 @@ static void publish_event(struct gb_runner *runner, const char *text)
     pthread_mutex_unlock(&runner->mutex);
 }
 
-/* The screen shows the list of events of the runner, which has more than events.log
- * (pauses, disk errors), and none from before a resume. */
+/* Publishes a snapshot with the events of the runner.  These include pauses and disk
+ * errors, which events.log lacks, but none from before a resume. */
 static void publish_snapshot(struct gb_runner *runner)
 {
     struct gb_snapshot *shown = gb_publish_back(&runner->publish);
@@ -361,7 +362,7 @@ static void publish_view(struct gb_runner *runner)
     runner->sample_cost_s = runner->sampled_s - before;
 }
 
-/* A view sample of a state of a file. */
+/* Publishes a view sample of a state from a file. */
 static void publish_view_of(struct gb_runner *runner, const struct gb_state *state)
 {
     gb_runner_take_state(state, true, &runner->view_start,
@@ -369,8 +370,8 @@ static void publish_view_of(struct gb_runner *runner, const struct gb_state *sta
     gb_publish_slots_swap(&runner->view_slots);
 }
 
-/* Observes the run and publishes; before that a view sample, so that both show the same
- * state. */
+/* Observes the run and publishes it.  The view sample goes first, so that both show the
+ * same state. */
 static void publish_state(struct gb_runner *runner, enum gb_run_state state)
 {
     publish_view(runner);
@@ -393,9 +394,9 @@ static void publish_if_due(struct gb_runner *runner, enum gb_run_state state)
     }
 }
 
-/* --- the engine thread ---------------------------------------------------------------- */
+/* --- the engine thread -------------------------------------------------------------- */
 
-/* The reason of GB_COMMAND_STOP. */
+/* Reason given for GB_COMMAND_STOP. */
 static const char stopped[] = "stopped on request";
 
 static void obey(struct gb_runner *runner, struct gb_command command)
@@ -428,7 +429,7 @@ static void obey(struct gb_runner *runner, struct gb_command command)
     }
 }
 
-/* Takes all commands from the ring. */
+/* Handles all commands in the ring. */
 static void drain(struct gb_runner *runner)
 {
     struct gb_command command;
@@ -440,7 +441,7 @@ static void drain(struct gb_runner *runner)
     pthread_mutex_unlock(&runner->mutex);
 }
 
-/* A run without a recorded point has no state to store yet. */
+/* Is a state to be stored?  A run without a recorded point has none yet. */
 static bool store_is_due(const struct gb_runner *runner)
 {
     const struct gb_run_recorder *recorder = loop_of(runner)->recorder;
@@ -456,7 +457,7 @@ static void store_if_due(struct gb_runner *runner)
     }
 }
 
-/* Sleeps until a command clears the reason; the time does not count for the run. */
+/* Sleeps until a command clears the reason.  The time is excluded from the run's time. */
 static void sleep_while(struct gb_runner *runner, const bool *reason)
 {
     const double from = gb_clock_s();
@@ -526,8 +527,8 @@ static bool is_unloading(const struct gb_record *record)
     return branch != NULL && *(const int32_t *)branch->data > 0;
 }
 
-/* The state at a point of the loading branch, when it was requested and the one before
- * has been taken. */
+/* Hands over the state at a point of the loading branch if it was requested and the
+ * previous one has been taken. */
 static void hand_over(struct gb_runner *runner, const struct gb_point *point)
 {
     struct gb_error err = {0};
@@ -543,7 +544,7 @@ static void hand_over(struct gb_runner *runner, const struct gb_point *point)
         return;
     }
     if (is_unloading(&runner->record)) {
-        return; /* an unloading begins here: at the next point */
+        return; /* an unloading begins here: wait for the next point */
     }
     runner->fork_wanted = false;
     pthread_mutex_lock(&runner->mutex);
@@ -559,7 +560,7 @@ static void on_point(void *data, struct gb_simulation *simulation,
     hand_over(data, point);
 }
 
-/* Also while the packing is built. */
+/* Also called while the packing is built. */
 static void on_progress(void *data, struct gb_simulation *simulation, double share)
 {
     struct gb_runner *runner = data;
@@ -574,14 +575,14 @@ static void on_progress(void *data, struct gb_simulation *simulation, double sha
     publish_if_due(runner, GB_RUN_RUNNING);
 }
 
-/* The end itself is published once the last files are there: what is done can be pictured,
- * reported and measured at once. */
+/* Publishes the end when the last files are written, so that pictures, reports and
+ * measurements of the run work at once. */
 static void on_end(void *data)
 {
-    publish_view(data); /* first, so that it is there with the state */
+    publish_view(data); /* before the state, so that both are available together */
 }
 
-/* The run of a workbench continues without its directory. */
+/* In the workbench a run continues without its directory. */
 static bool on_record_error(void *data, const struct gb_error *err)
 {
     char text[GB_EVENT_TEXT];
@@ -590,7 +591,8 @@ static bool on_record_error(void *data, const struct gb_error *err)
     return true;
 }
 
-/* A new run in a new directory; without one it is not recorded. */
+/* Creates the recorder of a new run in its directory; without a directory nothing is
+ * recorded. */
 static void create_recorder(struct gb_runner *runner)
 {
     char text[GB_EVENT_TEXT];
@@ -608,7 +610,7 @@ static void create_recorder(struct gb_runner *runner)
     gb_run_loop_inherit(loop_of(runner), gb_runner_curve(runner));
 }
 
-/* The engine that holds the lock has been told to stop. */
+/* Waits for the lock.  The engine that holds it has been asked to stop. */
 static bool wait_for_lock(struct gb_runner *runner, struct gb_error *err)
 {
     while (gb_rundir_busy(runner->directory)) {
@@ -670,31 +672,31 @@ static void *engine_thread(void *data)
     }
     publish_state(runner, GB_RUN_RUNNING);
     (void)gb_simulation_advance(runner->simulation, INT64_MAX,
-                                &err); /* in the snapshot */
+                                &err); /* the snapshot has the error */
     publish_snapshot(runner);
     gb_simulation_release(runner->simulation);
     return NULL;
 }
 
-/* --- the follow thread ---------------------------------------------------------------- */
+/* --- the follow thread -------------------------------------------------------------- */
 
-/* Interval between two readings of the directory, s. */
+/* Interval between two reads of the directory, s. */
 static const double follow_every_s = 0.4;
 /* Age of an unchanged status at which the lock is tested for a living engine, s. */
 static const double silence_s = 5.0;
 
-/* Share of the time in which states are read at most: that of a million particles takes
- * seconds. */
+/* Largest fraction of the time spent on reading states; reading a million particles
+ * takes seconds. */
 static const double state_share = 0.1;
 
-/* What the thread has seen. */
+/* What the follow thread has seen so far. */
 struct seen {
-    double changed_s;      /* clock reading at the last change of the status */
-    GStatBuf state;        /* of the last state.h5 */
-    double read_s, cost_s; /* clock reading and seconds of its reading; 0: none */
+    double changed_s;      /* clock at the last change of the status */
+    GStatBuf state;        /* the last state.h5 */
+    double read_s, cost_s; /* clock when it was read, and the time it took; 0: none */
 };
 
-/* Reads the directory into the snapshot and the curve.  True: its engine is gone. */
+/* Reads the directory into the snapshot and the curve.  True: the engine has ended. */
 static bool read_run(struct gb_runner *runner)
 {
     struct gb_snapshot *shown = &loop_of(runner)->snapshot;
@@ -729,12 +731,13 @@ static void lose_directory(struct gb_runner *runner)
     shown->state = GB_RUN_FAILED;
 }
 
-/* Of an engine that has gone; where its files cannot be read, that is told already. */
+/* Reports an engine that ended without a final status.  If its files cannot be read,
+ * that was reported already. */
 static void tell_end(struct gb_runner *runner)
 {
     struct gb_snapshot *shown = &loop_of(runner)->snapshot;
     const enum gb_status told = shown->error.code;
-    if (told == GB_OK || told == GB_ERR_CANCELLED) { /* none, or one of its status */
+    if (told == GB_OK || told == GB_ERR_CANCELLED) { /* none, or one from status.json */
         gb_error_set(&shown->error, GB_ERR_CANCELLED,
                      "its engine has ended without a final status: t here or `greenbody "
                      "resume %s` continues the run",
@@ -743,7 +746,7 @@ static void tell_end(struct gb_runner *runner)
     }
 }
 
-/* Reads the directory; false when no engine works there any more. */
+/* Reads the directory.  False if no engine works there any more. */
 static bool refresh(struct gb_runner *runner, struct seen *seen)
 {
     struct gb_snapshot *shown = &loop_of(runner)->snapshot;
@@ -753,7 +756,7 @@ static bool refresh(struct gb_runner *runner, struct seen *seen)
         lose_directory(runner);
         return false;
     }
-    /* again: its last status may have come after the first reading */
+    /* read again: the last status may have been written after the first read */
     const bool gone =
         read_run(runner) && shown->state <= GB_RUN_PAUSED && read_run(runner);
     if (shown->seconds != seconds || shown->state != state) {
@@ -768,15 +771,14 @@ static bool refresh(struct gb_runner *runner, struct seen *seen)
     return shown->state <= GB_RUN_PAUSED;
 }
 
-/* Files are replaced: another one has another number, time or size. */
+/* Is it the same file?  A replaced file has another inode, time or size. */
 static bool is_same(const GStatBuf *a, const GStatBuf *b)
 {
     return a->st_ino == b->st_ino && a->st_mtime == b->st_mtime &&
            a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_size == b->st_size;
 }
 
-/* Publishes the packing of a state.h5 that has not been shown.  One that cannot be read is
- * an event, once. */
+/* Publishes the packing of a new state.h5.  If it cannot be read, publishes one event. */
 static void show_state(struct gb_runner *runner, struct seen *seen)
 {
     const double from_s = gb_clock_s();
@@ -821,7 +823,7 @@ static void *follow_thread(void *data)
     bool more = true;
     while (more && !runner->stop) {
         more = refresh(runner, &seen);
-        seen.cost_s = more ? seen.cost_s : 0.0; /* the last state is shown in any case */
+        seen.cost_s = more ? seen.cost_s : 0.0; /* always show the last state */
         show_state(runner, &seen);
         publish_snapshot(runner);
         if (more) {
@@ -831,7 +833,7 @@ static void *follow_thread(void *data)
     return NULL;
 }
 
-/* --- calls of the screen -------------------------------------------------------------- */
+/* --- calls of the screen ------------------------------------------------------------ */
 
 static void free_runner(struct gb_runner *runner)
 {
@@ -842,7 +844,8 @@ static void free_runner(struct gb_runner *runner)
     gb_alloc_free(runner);
 }
 
-/* The simulation belongs to the runner, also where there is none. */
+/* Creates a runner, which takes ownership of the simulation.  On error it destroys the
+ * simulation. */
 static struct gb_runner *wrap(struct gb_simulation *simulation, const char *directory,
                               struct gb_error *err)
 {
@@ -993,7 +996,7 @@ bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind)
     if (!gb_command_ring_push(&runner->ring, (struct gb_command){kind})) {
         return false;
     }
-    /* under the mutex: the engine could miss it between its test and its wait */
+    /* under the mutex, so that the engine cannot miss it between its test and its wait */
     pthread_mutex_lock(&runner->mutex);
     pthread_cond_signal(&runner->wake);
     pthread_mutex_unlock(&runner->mutex);
