@@ -74,7 +74,7 @@ static bool read_lab(struct gb_labdata *lab, const struct request *request,
     return good;
 }
 
-/* All checks that are possible before anything is written. */
+/* Makes all checks that are possible before anything is written. */
 static bool prepare(struct command *command, char **words, struct gb_error *err)
 {
     const struct request *request = command->request;

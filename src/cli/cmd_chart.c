@@ -1,3 +1,8 @@
+/* `greenbody chart`: error against cost of numerical settings.  The command measures a
+ * cell for each setting, writes the log chart.csv after each cell, and continues an
+ * existing log.  At the end it prints a table and a plot of characters, and with
+ * --write stores the recommended setting in a preset.  With --quantity the study of
+ * quantities does the work (study/chart). */
 #include <glib.h>
 #include <langinfo.h>
 #include <math.h>
@@ -20,7 +25,7 @@
 
 enum { ROWS = 18, COLUMNS = 78 };
 
-/* Points (log10 of cost, error) of one relaxer, or, for NULL, of the Pareto front, sorted
+/* Points (log10 of cost, error) of one relaxer, or for NULL of the Pareto front, sorted
  * by cost.  Returns their number. */
 static size_t collect(const struct gb_chart_table *table, const char *relaxer, double *x,
                       double *y)
@@ -57,7 +62,7 @@ static double smallest_scatter(const struct gb_chart_table *table, int pressures
 static void draw(struct gb_plot *plot, const struct gb_chart_table *table, double level,
                  double *x, double *y)
 {
-    static const char *const dynamic = "verlet"; /* no relaxer */
+    static const char *const dynamic = "verlet"; /* instead of a relaxer */
     struct gb_plot_entry entry[8];
     int entries = 0;
     const size_t pareto = collect(table, NULL, x, y);
@@ -88,8 +93,8 @@ static void draw(struct gb_plot *plot, const struct gb_chart_table *table, doubl
     gb_plot_legend(plot, entry, entries);
 }
 
-/* Error against CPU time as a plot in characters, with its legend; empty where fewer than
- * two settings have errors.  g_string_free. */
+/* Error against CPU time as a plot of characters with its legend; empty if fewer than
+ * two settings have errors. g_string_free. */
 static GString *chart_plot(const struct gb_chart_table *table,
                            const struct gb_chart_plan *plan)
 {
@@ -131,7 +136,7 @@ static GString *chart_plot(const struct gb_chart_table *table,
     return text;
 }
 
-/* Of a mean density, by default. */
+/* Default standard error of a mean density. */
 #define STANDARD_ERROR 0.001
 
 enum { SEEDS_MAX = 1000, JOBS_MAX = 4096, DESCRIPTION = 160 };
@@ -142,16 +147,16 @@ struct chart {
     int seeds, jobs;
     double budget_s, allowed, standard_error;
     gboolean force, quiet;
-    char *command; /* for the head of chart.csv */
+    char *command; /* as typed, for the head of chart.csv */
     struct gb_preset *preset;
     struct gb_chart_plan plan;
     struct gb_chart_log log;
     struct gb_progress progress;
     double spent_s;
     int missing;                         /* cells beyond the budget */
-    struct gb_quantity_chart quantities; /* of --quantity */
-    double before_s; /* processor time of their cells before this command */
-    double since_s;  /* clock, when the last of them ended */
+    struct gb_quantity_chart quantities; /* for --quantity */
+    double before_s; /* processor time of these cells before this command */
+    double since_s;  /* clock when the last of them ended */
 };
 
 static bool cancelled(void *data, double cpu_s)
@@ -160,7 +165,8 @@ static bool cancelled(void *data, double cpu_s)
     return gb_progress_caught() != 0 || chart->spent_s + cpu_s > chart->budget_s;
 }
 
-/* --write: a new file, or the preset itself; another file only with --force. */
+/* Checks the file of --write: a new file, or the preset itself; any other file only
+ * with --force. */
 static bool check_write(const struct chart *chart, struct gb_error *err)
 {
     if (!chart->write || !gb_file_check_target(chart->write, err)) {
@@ -237,14 +243,14 @@ static bool write_table(const struct chart *chart, struct gb_error *err)
     return good;
 }
 
-/* Simulates a cell that is not in the log.  False only after an error. */
+/* Simulates a cell that is not in the log.  False after an error only. */
 static bool measure(struct chart *chart, const struct gb_chart_setting *setting,
                     uint64_t seed, struct gb_error *err)
 {
     if (gb_chart_find(&chart->log, setting, seed)) {
         return true;
     }
-    if (chart->missing > 0) { /* the budget is spent */
+    if (chart->missing > 0) { /* no budget left */
         chart->missing++;
         return true;
     }
@@ -284,7 +290,7 @@ static bool measure_all(struct chart *chart, struct gb_error *err)
     return write_table(chart, err);
 }
 
-/* Writes the recommended setting into the preset as it is on disk; other keys stay. */
+/* Writes the recommended setting into the preset file; other keys do not change. */
 static bool write_preset(const struct chart *chart, const struct gb_chart_row *chosen,
                          struct gb_error *err)
 {
@@ -353,7 +359,7 @@ static void list_quantities(void)
     }
 }
 
-/* Options of the chart of densities alone, and the reverse. */
+/* Rejects options for densities together with --quantity, and the reverse. */
 static bool check_quantity(const struct chart *chart, struct gb_error *err)
 {
     if (chart->jobs < 0 || chart->jobs > JOBS_MAX) {
@@ -371,7 +377,8 @@ static bool check_quantity(const struct chart *chart, struct gb_error *err)
                         "without --quantity");
 }
 
-/* Processor time: of the cells that have ended, and about that of those at work. */
+/* Is the budget used up?  Processor time of completed cells, and an estimate for active
+ * ones. */
 static bool quantity_cancelled(void *data)
 {
     const struct chart *chart = data;
@@ -401,7 +408,7 @@ static void quantity_waits(void *data, const struct gb_cells_item *cell,
     gb_visible_line(stderr, "waiting for cells/%s: %s works on it", cell->name, holder);
 }
 
-/* scene.ini: preset.ini is the mark of a single run. */
+/* Writes the preset as scene.ini, because preset.ini marks a single run. */
 static bool keep_scene(const struct chart *chart, struct gb_error *err)
 {
     char *path = g_build_filename(chart->directory, "scene.ini", NULL);
@@ -410,7 +417,7 @@ static bool keep_scene(const struct chart *chart, struct gb_error *err)
     return good;
 }
 
-/* A table of each quantity of the study, and the text of the one asked for. */
+/* Writes a table for each quantity of the study and prints the requested one. */
 static bool write_quantities(const struct chart *chart, const struct gb_quantity *wanted,
                              struct gb_error *err)
 {

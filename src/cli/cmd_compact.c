@@ -16,7 +16,7 @@
 #include "study/study_text.h"
 #include "study/yield.h"
 
-/* What the commands on compacts (yield, strength) have in common: options, preset, progress
+/* Common parts of the commands on compacts (yield, strength): options, preset, progress
  * of the cells on stderr, signals. */
 struct compact_options {
     char *directory, *at, *density;
@@ -25,7 +25,7 @@ struct compact_options {
     char *command; /* as typed */
     struct gb_preset *preset;
     struct gb_progress progress;
-    struct gb_cells_callbacks callbacks; /* of the study */
+    struct gb_cells_callbacks callbacks; /* for the study */
 };
 
 enum { GB_COMPACT_OPTIONS_ENTRIES = 6 };
@@ -50,7 +50,7 @@ static void compact_options_entries(struct compact_options *options, GOptionEntr
     memcpy(entry, own, sizeof own);
 }
 
-/* "0.4;0.5" as "density = 0.4; density = 0.5". */
+/* Turns "0.4;0.5" into "density = 0.4; density = 0.5". */
 static char *densities(const char *text)
 {
     char **parts = g_strsplit_set(text, ";,", -1);
@@ -105,8 +105,8 @@ static void on_wait(void *data, const struct gb_cells_item *cell, const char *ho
     }
 }
 
-/* Checks --out and --jobs, reads the preset of the words and the marks (untouched where
- * neither --at nor --density is given), and installs the signals. */
+/* Checks --out and --jobs, reads the preset and the points (unchanged without --at and
+ * --density), and installs the signal handlers. */
 static bool compact_options_begin(struct compact_options *options, char **words,
                                   char **sets, struct gb_keep_points *marks,
                                   struct gb_error *err)
@@ -130,8 +130,8 @@ static bool compact_options_begin(struct compact_options *options, char **words,
     return true;
 }
 
-/* Writes scene.ini into the directory: preset.ini is the mark of a single run, in which many
- * cells are refused. */
+/* Writes scene.ini into the directory. preset.ini would mark it as a single run, in
+ * which many cells are refused. */
 static bool compact_options_keep_preset(struct compact_options *options,
                                         struct gb_error *err)
 {
@@ -150,14 +150,14 @@ static void compact_options_finish(struct compact_options *options)
     g_free(options->command);
 }
 
-/* The options, in per cent where the user gives per cent. */
+/* The options, in per cent as given by the user. */
 struct request {
     struct compact_options common;
     struct gb_yield_options yield;
     double offset_percent;
 };
 
-/* A column of a value with its error. */
+/* Prints a value with its error as a column. */
 static void print_value(const struct gb_fit_value *value, double unit)
 {
     char number[GB_NUMBER_ERROR_MAX];

@@ -9,7 +9,7 @@
 #include "cli/options.h"
 #include "many/die_summary.h"
 
-/* A column a group; a row a number, with what it means. */
+/* One column per group, one row per figure with its meaning. */
 static void print_table(const struct gb_runset *set)
 {
     gb_visible_print(stdout, "%-22s", "beds");
@@ -42,7 +42,7 @@ static void print_groups(const struct gb_runset *set)
     }
 }
 
-/* A row a group; each number has its standard error after it. */
+/* One row per group; each figure is followed by its standard error. */
 static struct gb_listing *listing_of(const struct gb_runset *set)
 {
     const struct gb_die_summary_row *rows = gb_die_summary_table();

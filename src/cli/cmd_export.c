@@ -69,7 +69,7 @@ static bool write_text(const char *path, const GString *text, struct gb_error *e
     return path == NULL || gb_file_replace(path, text->str, text->len, err);
 }
 
-/* The texts so far. */
+/* Writes the texts collected so far. */
 static bool write_both(struct export *job, const char *particles, const char *contacts,
                        struct gb_error *err)
 {
@@ -77,7 +77,7 @@ static bool write_both(struct export *job, const char *particles, const char *co
            write_text(particles, job->particles, err);
 }
 
-/* One state, or all into the same texts. */
+/* Exports one state, or all states into the same texts. */
 static bool write_whole(struct export *job, const struct request *request,
                         const GPtrArray *paths, struct gb_error *err)
 {
@@ -94,7 +94,8 @@ static bool write_whole(struct export *job, const struct request *request,
     return good && write_both(job, request->output, request->contacts, err);
 }
 
-/* Are the numbered files of a series and their list free, or to be replaced? */
+/* May the numbered files of a series and their list be written: are they new, or is
+ * --force given? */
 static bool check_series(const char *path, guint count, gboolean force,
                          struct gb_error *err)
 {
@@ -121,7 +122,7 @@ static bool write_member(struct export *job, const struct request *request, guin
     return good;
 }
 
-/* A file for each state, then the lists: without these nothing is a series. */
+/* Writes a file for each state, then the lists, which make the files a series. */
 static bool write_series(struct export *job, const struct request *request,
                          const GPtrArray *paths, struct gb_error *err)
 {
@@ -161,7 +162,8 @@ static bool write_files(struct export *job, const struct request *request,
     return good;
 }
 
-/* A state file alone does not say what the particles weigh. */
+/* Density of the solid, from the preset next to the source; a state file does not have
+ * it. */
 static double solid_density(const char *source)
 {
     struct gb_params params;
@@ -199,7 +201,7 @@ static bool perform(const struct request *request, char **words, struct gb_error
     return good;
 }
 
-/* The formats for the help page; g_free. */
+/* The formats, for the help; g_free. */
 static char *describe(void)
 {
     GString *text = g_string_new("Formats:\n");

@@ -1,3 +1,6 @@
+/* `greenbody fit`: fits compaction equations to runs or to a laboratory table.  It
+ * prints the parameters with intervals as text or CSV, ordered by AICc, and can draw
+ * the figure of the same data. */
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +29,7 @@ static void add_row(struct gb_listing *listing, const char *equation, const char
     gb_listing_text(listing, unit);
 }
 
-/* A number without an interval. */
+/* Adds a number without an interval. */
 static void add_figure(struct gb_listing *listing, const char *equation, const char *name,
                        double value, const char *unit)
 {
@@ -34,7 +37,7 @@ static void add_figure(struct gb_listing *listing, const char *equation, const c
     add_row(listing, equation, name, &row, unit);
 }
 
-/* The ends of Heckel's straightest stretch, MPa. */
+/* The ends of Heckel's linear range, MPa. */
 static void stretch_ends(const struct gb_compaction_fits *fits,
                          const struct gb_equations_points *points, double ends[2])
 {
@@ -47,9 +50,9 @@ static bool is_heckel(const struct gb_compaction_fits *fits, size_t index)
     return gb_compaction_fits_reported(fits, index) == &fits->heckel;
 }
 
-/* Rows equation,parameter,value,low,high,unit by ascending AICc: the parameters, the ends
- * of Heckel's stretch, rms and AICc of each equation that was fitted.  Cells are empty
- * where there is no interval, or no end of it. */
+/* Rows equation,parameter,value,low,high,unit by ascending AICc: the parameters, the
+ * ends of Heckel's linear range, rms and AICc of each fitted equation.  Cells are empty
+ * if there is no interval or no end. */
 static struct gb_listing *listing_of(const struct gb_compaction_fits *fits,
                                      const struct gb_compaction_data *data)
 {
@@ -75,7 +78,7 @@ static struct gb_listing *listing_of(const struct gb_compaction_fits *fits,
     return listing;
 }
 
-/* What was fitted to what. */
+/* Describes the fit and its data. */
 static void append_head(GString *text, const struct gb_compaction_data *data)
 {
     const struct gb_equations_points *points = &data->points;
@@ -108,7 +111,7 @@ static void append_value(GString *text, const struct gb_compaction_value *value)
                            strcmp(value->unit, "1") == 0 ? "" : value->unit);
 }
 
-/* The same to be read, with what was fitted to what and the reasons of refusals. */
+/* The result as text, with the data and the reasons why equations were not fitted. */
 static GString *fit_output_text(const struct gb_compaction_fits *fits,
                                 const struct gb_compaction_data *data)
 {
@@ -280,7 +283,7 @@ static bool read_data(struct gb_compaction_data *data, const struct request *req
                               "%.200s: one file of measured points at a time", words[0]);
 }
 
-/* One line on stderr for each equation that is missing in the CSV. */
+/* Prints a line on stderr for each equation that is missing in the CSV. */
 static void print_refusals(const struct gb_compaction_fits *fits)
 {
     for (size_t i = fits->fitted; i < fits->count; i++) {
@@ -288,8 +291,8 @@ static void print_refusals(const struct gb_compaction_fits *fits)
     }
 }
 
-/* The figure of the same name, with its data beside it. */
-static bool write_figure(const struct gb_series_powder *one,
+/* Draws the figure of the fits and writes its data next to it. */
+static bool write_figure(const struct gb_compaction_series *one,
                          const struct request *request, struct gb_error *err)
 {
     const struct gb_figures_row *row = gb_figures_find("fit");
@@ -335,7 +338,7 @@ static bool fit(struct request *request, char **words, struct gb_error *err)
     return good;
 }
 
-/* The list of equations under the options. */
+/* The list of equations for the help, after the options. */
 static char *describe_equations(void)
 {
     GString *text = g_string_new("Equations (P pressure in MPa, rho relative density, D0 "

@@ -19,7 +19,7 @@ struct request {
 
 enum { VALUES_MAX = 64 };
 
-/* The table, and the value of the varied key, or NULL. */
+/* The table and the value of the varied key, or NULL. */
 struct filling {
     struct gb_listing *listing;
     const char *varied;
@@ -32,7 +32,7 @@ static bool add_row(const double *value, int columns, void *data, struct gb_erro
     if (filling->varied != NULL) {
         gb_listing_text(filling->listing, filling->varied);
     }
-    for (int k = 0; k < columns; k++) { /* a time step may be infinite: not missing */
+    for (int k = 0; k < columns; k++) { /* an infinite time step is not a missing value */
         char number[GB_NUMBER_MAX];
         g_snprintf(number, sizeof number, "%.17g", value[k]);
         gb_listing_text(filling->listing, number);
@@ -40,7 +40,7 @@ static bool add_row(const double *value, int columns, void *data, struct gb_erro
     return true;
 }
 
-/* The scenes of --vary group.key=A,B,..., one after the other. */
+/* The scenes of --vary group.key=A,B,..., in order. */
 struct variation {
     char **pair;   /* key, values */
     char **values; /* NULL-terminated */
@@ -69,7 +69,7 @@ static bool set_varied(struct gb_params *scene, const struct variation *variatio
     return good;
 }
 
-/* All scenes are checked before the first row. */
+/* Fills the table.  Checks all scenes before the first row. */
 static bool fill_scenes(struct gb_listing *listing, const struct request *request,
                         const struct gb_params *params, const struct variation *variation,
                         struct gb_error *err)
@@ -203,7 +203,7 @@ static const char examples[] =
     "  greenbody law critical-step p3-pair --range h_m=0:200nm:101 \\\n"
     "    --vary material.hardening=0,0.05,0.1,0.2";
 
-/* The laws in reduced units, or those of a pair. */
+/* Appends the laws in reduced units, or those of a pair. */
 static void append_laws(GString *text, bool pair)
 {
     size_t count = 0;

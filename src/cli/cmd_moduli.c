@@ -1,3 +1,6 @@
+/* `greenbody moduli`: elastic moduli of the states of a run directory, or of the points
+ * of a preset as means over replicas.  States are probed (solve/moduli), printed with
+ * standard errors, and stored in moduli.csv. */
 #include <errno.h>
 #include <glib.h>
 #include <glib/gstdio.h>
@@ -97,8 +100,8 @@ static void print_derived(const struct gb_moduli_state *state)
     print_line(state, "waves", waves, "m/s");
 }
 
-/* Moduli of a state on stdout, to be read: C in full, averages, wave speeds, elastic
- * range; with standard errors over replicas. */
+/* Prints the moduli of a state: C in full, averages, wave speeds, elastic range; with
+ * standard errors over replicas. */
 static void moduli_output_state(const struct gb_moduli_state *state)
 {
     gb_visible_print(stdout, "density        ");
@@ -130,11 +133,12 @@ static void moduli_output_state(const struct gb_moduli_state *state)
     print_derived(state);
 }
 
-/* The folder of `greenbody moduli --out`: moduli.csv, and of a preset preset.ini. */
+/* The folder of `greenbody moduli --out`: moduli.csv, and for a preset also preset.ini.
+ */
 struct moduli_folder {
-    const char *path;    /* NULL: none, and nothing is written */
+    const char *path;    /* NULL: none; nothing is written */
     const char *command; /* as typed, for the table's comment */
-    GArray *earlier;     /* struct gb_moduli_state, of the file as it was */
+    GArray *earlier;     /* struct gb_moduli_state, from the existing file */
 };
 
 static void moduli_folder_init(struct moduli_folder *folder, const char *path,
@@ -164,8 +168,8 @@ static bool make(const struct moduli_folder *folder, struct gb_error *err)
                         folder->path, g_strerror(errno));
 }
 
-/* Makes the folder of a preset and writes preset.ini.  Errors: GB_ERR_INPUT when it has a
- * preset or moduli already, GB_ERR_MACHINE. */
+/* Creates the folder for a preset and writes preset.ini.  Errors: GB_ERR_INPUT if it
+ * has a preset or moduli already, GB_ERR_MACHINE. */
 static bool moduli_folder_begin(const struct moduli_folder *folder,
                                 struct gb_preset *preset, struct gb_error *err)
 {
@@ -187,8 +191,8 @@ static bool moduli_folder_begin(const struct moduli_folder *folder,
     return good;
 }
 
-/* The folder of a run: its own directory, whose table is read to grow, or a folder without
- * moduli.  Errors: as above, and of gb_moduli_table_read. */
+/* Opens the folder for a run: the run's own directory, whose table is extended, or a
+ * folder without moduli.  Errors: as above; see gb_moduli_states_read. */
 static bool moduli_folder_open(struct moduli_folder *folder, const char *directory,
                                struct gb_error *err)
 {
@@ -209,7 +213,7 @@ static bool moduli_folder_open(struct moduli_folder *folder, const char *directo
     return good;
 }
 
-/* moduli.csv of the earlier states and these (struct gb_moduli_state). */
+/* Writes moduli.csv with the earlier states and these (struct gb_moduli_state). */
 static bool moduli_folder_write(const struct moduli_folder *folder, const GArray *states,
                                 struct gb_error *err)
 {
@@ -242,12 +246,12 @@ struct request {
 struct collector {
     const struct request *request;
     struct moduli_folder folder; /* of --out */
-    /* struct gb_moduli_state: of a preset the points asked for and the end, each the same
-     * for all replicas; of a run directory its states. */
+    /* struct gb_moduli_state.  For a preset: the requested points and the end, each as
+     * a mean over the replicas.  For a run directory: its states. */
     GArray *state;
-    struct gb_keep_points points; /* of a preset */
-    unsigned reached;             /* points, as bits, of the replica under way */
-    guint at, total;              /* of the states of a run directory; 0: none */
+    struct gb_keep_points points; /* for a preset */
+    unsigned reached;             /* points reached by the present replica, as bits */
+    guint at, total; /* progress over the states of a run directory; 0: none */
 };
 
 static void print_progress(const struct collector *collector,
@@ -271,13 +275,14 @@ static struct gb_moduli_state *state_at(const struct collector *collector, guint
     return &g_array_index(collector->state, struct gb_moduli_state, k);
 }
 
-/* Two rows of the same states: a run that ends at a point, a step over two points. */
+/* Do two rows describe the same state?  This happens if a run ends at a point, or a
+ * step passes two points. */
 static bool is_repeated(const struct gb_moduli_state *a, const struct gb_moduli_state *b)
 {
     return a->count == b->count && memcmp(a->sum, b->sum, sizeof a->sum) == 0;
 }
 
-/* The states that there are, in the order of the run and each once. */
+/* The existing states in the order of the run, each once. */
 static GArray *list_states(const struct collector *collector)
 {
     GArray *list = g_array_new(FALSE, FALSE, sizeof(struct gb_moduli_state));
@@ -296,7 +301,8 @@ static GArray *list_states(const struct collector *collector)
     return list;
 }
 
-/* The last state of a run that stopped early is no state of a mean. */
+/* Adds the replica's states to the means.  The last state of a run that stopped early
+ * does not enter a mean. */
 static void add_to_points(struct collector *collector,
                           const struct gb_moduli_table_row *row)
 {
@@ -348,7 +354,7 @@ static void print_states(const struct request *request, const GArray *states)
     if (request->csv || request->json) {
         gb_options_print(gb_listing_end(gb_moduli_table_listing(states, NULL),
                                         request->json ? GB_LISTING_JSON : GB_LISTING_CSV),
-                         NULL); /* main reports an error of stdout */
+                         NULL); /* main reports errors of stdout */
         return;
     }
     for (guint s = 0; s < states->len; s++) {
@@ -368,7 +374,7 @@ static struct gb_moduli_table_sink sink_of(struct collector *collector)
                                          .range = !collector->request->quick};
 }
 
-/* Counts the replica under way as missing where it did not get. */
+/* Counts the present replica as missing at the points that it did not reach. */
 static void end_replica(struct collector *collector)
 {
     for (int k = 0; k <= collector->points.count; k++) {
@@ -378,7 +384,8 @@ static void end_replica(struct collector *collector)
     }
 }
 
-/* What all replicas have missed; why: the error of the first that stopped. */
+/* Fails for a point that all replicas missed; why: the error of the first that stopped.
+ */
 static bool check_reached(const struct collector *collector, const struct gb_error *why,
                           struct gb_error *err)
 {
@@ -398,8 +405,8 @@ static bool check_reached(const struct collector *collector, const struct gb_err
     return why->code == GB_OK || gb_error_set(err, why->code, "%s", why->text);
 }
 
-/* Runs of one preset that differ by their seed.  One that stops early does not end the
- * others. */
+/* Probes runs of one preset that differ by their seed.  A run that stops early does not
+ * end the others. */
 static bool probe_preset(const struct request *request, const struct gb_params *params,
                          struct collector *collector, struct gb_error *err)
 {
@@ -458,7 +465,8 @@ static bool run_preset(const struct request *request, char **words,
     return done;
 }
 
-/* States of a run directory, each point once; with --at those nearest to its points. */
+/* Probes the states of a run directory, each point once; with --at only those nearest
+ * to its points. */
 static bool run_directory(const struct request *request, const char *directory,
                           struct collector *collector, struct gb_error *err)
 {
@@ -484,7 +492,7 @@ static bool run_directory(const struct request *request, const char *directory,
     return good;
 }
 
-/* What was probed is printed, whatever came after it. */
+/* Prints what was probed, even after a later error. */
 static int perform(struct request *request, char **words)
 {
     struct gb_error err = {0};

@@ -1,3 +1,7 @@
+/* `greenbody pack`: the initial packing of a run, without the run.  It grows a periodic
+ * cell, or pours, settles and flattens the bed of a die, and writes it with its radial
+ * distribution function. --percolation instead finds the number of particles at which
+ * growing clusters percolate. */
 #include <errno.h>
 #include <glib.h>
 #include <glib/gstdio.h>
@@ -27,13 +31,13 @@
 #include "scene/model.h"
 #include "scene/seed.h"
 
-/* `greenbody pack --percolation CELLS`: the number of particles at which the growing cluster
- * percolates, of cells whose seeds count up from that of the scene, as CSV on stdout with
- * mean, standard error and standard deviation. */
+/* `greenbody pack --percolation CELLS`: the number of particles at which the growing
+ * cluster percolates.  The cells have ascending seeds, beginning with that of the
+ * scene.  Prints CSV with mean, standard error and standard deviation on stdout. */
 
-enum { GB_PACK_PERCOLATION_CELLS = 100000 }; /* most */
+enum { GB_PACK_PERCOLATION_CELLS = 100000 }; /* upper limit */
 
-/* Density of count particles in the cell of the model. */
+/* Relative density of `count` particles in the cell of the model. */
 static double density_of(const struct gb_model *model, double count)
 {
     const double particle = model->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
@@ -56,7 +60,7 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
     return true;
 }
 
-/* The mean over the cells, as a comment below their rows. */
+/* Adds the mean over the cells as a comment below their rows. */
 static void add_mean(struct gb_listing *listing, const struct gb_model *model,
                      const double *count, int cells)
 {
@@ -81,7 +85,7 @@ static void add_mean(struct gb_listing *listing, const struct gb_model *model,
     g_string_free(text, TRUE);
 }
 
-/* Errors: GB_ERR_INPUT (lattices, those of gb_structure_percolation, stdout cannot be written). */
+/* Errors: GB_ERR_INPUT (lattices, stdout cannot be written); see gb_percolation_find. */
 static bool pack_percolation(const struct gb_params *params, int cells,
                              struct gb_error *err)
 {
@@ -116,15 +120,15 @@ static bool pack_percolation(const struct gb_params *params, int cells,
     return good;
 }
 
-/* A bed of a die scene, poured, settled and flattened, as `run` begins to press it. */
+/* The bed of a die scene: poured, settled and flattened, as `run` begins to press it. */
 struct gb_pack_bed {
     struct gb_state *state;
-    GPtrArray *filling; /* struct gb_state of the powder that falls, in order */
+    GPtrArray *filling; /* struct gb_state while the powder falls, in order */
 };
 
 enum { GB_PACK_BED_STATES = 1000 };
 
-/* Time steps between two looks at the time and at signals: about 0.1 s. */
+/* Time steps between two checks of the time and of signals: about 0.1 s. */
 static const int64_t slice = 500;
 
 static void destroy_state(void *state)
@@ -132,7 +136,8 @@ static void destroy_state(void *state)
     gb_state_destroy(state);
 }
 
-/* Steps so far number the states of the filling, which precede all recorded points. */
+/* Takes a state.  States of the filling are numbered by the steps so far, since they
+ * precede all recorded points. */
 static bool take(const struct gb_experiment *experiment, struct gb_state **out,
                  struct gb_error *err)
 {
@@ -143,7 +148,7 @@ static bool take(const struct gb_experiment *experiment, struct gb_state **out,
     return true;
 }
 
-/* Keeps a state when it is time for one. */
+/* Keeps a state if one is due. */
 static bool keep(struct gb_pack_bed *bed, const struct gb_experiment *experiment,
                  double every_s, struct gb_error *err)
 {
@@ -165,7 +170,7 @@ static bool keep(struct gb_pack_bed *bed, const struct gb_experiment *experiment
     return true;
 }
 
-/* Prints the events; true when one says that all powder is in the die. */
+/* Prints the events; true if all powder is in the die. */
 static bool is_poured(struct gb_experiment *experiment)
 {
     char text[GB_EVENT_TEXT];
@@ -201,8 +206,8 @@ static bool fill(struct gb_pack_bed *bed, struct gb_experiment *experiment,
 }
 
 /* every_s   simulated time between kept states until all powder is poured; 0: none
- * Prints a line to stderr when a stage of the filling ends.  Errors: GB_ERR_INPUT (more than
- * GB_PACK_BED_STATES states), those of the run, GB_ERR_CANCELLED by a signal. */
+ * Prints a line to stderr at the end of each stage.  Errors: GB_ERR_INPUT (more than
+ * GB_PACK_BED_STATES states), errors of the run, GB_ERR_CANCELLED by a signal. */
 static bool pack_bed_fill(struct gb_pack_bed *bed, const struct gb_params *params,
                           double every_s, struct gb_error *err)
 {
@@ -224,7 +229,7 @@ static void pack_bed_finish(struct gb_pack_bed *bed)
     *bed = (struct gb_pack_bed){0};
 }
 
-/* The states of the filling as DIRECTORY/snapshots/filling-000001.h5 ... */
+/* Writes the states of the filling as DIRECTORY/snapshots/filling-000001.h5 ... */
 static bool pack_bed_write(const struct gb_pack_bed *bed, const char *directory,
                            struct gb_error *err)
 {
@@ -242,7 +247,7 @@ static bool pack_bed_write(const struct gb_pack_bed *bed, const char *directory,
     return good;
 }
 
-/* Particles, height, densities and coordination on stdout. */
+/* Prints particles, height, densities and coordination on stdout. */
 static void pack_bed_print(const struct gb_state *state)
 {
     const struct gb_point *point = &state->point;
@@ -256,11 +261,11 @@ static void pack_bed_print(const struct gb_state *state)
     gb_visible_print(stdout, "coordination   %.6g\n", point->coordination);
 }
 
-/* Width of the bins of g(r), d: it resolves the peak of touching particles and the edges
- * at r = sqrt(3) and 2. */
+/* Width of the bins of g(r), d.  It resolves the peak of touching particles and the
+ * edges at r = sqrt(3) and 2. */
 static const double bin_width = 0.05;
 
-/* Beyond this distance (d) g(r) is 1, and would cost more than the packing itself. */
+/* Largest distance (d): beyond it g(r) is 1 and would cost more than the packing. */
 static const double r_limit = 12.0;
 
 enum { NOT_GIVEN = INT_MIN };
@@ -300,7 +305,7 @@ static bool check_options(const struct pack *pack, struct gb_error *err)
                         "pack needs --out DIR, a directory for the packing");
 }
 
-/* --every is for dies, --percolation for periodic cells. */
+/* Checks that --every is used for dies and --percolation for periodic cells. */
 static bool check_scene(struct pack *pack, struct gb_error *err)
 {
     if (pack->every != NULL && !is_bed(pack)) {
@@ -319,7 +324,7 @@ static bool check_scene(struct pack *pack, struct gb_error *err)
            gb_loading_kind_check_cell(&pack->packing.params, "--percolation", err);
 }
 
-/* All checks that are possible before the packing is grown. */
+/* Makes all checks that are possible before the packing is grown. */
 static bool prepare(struct pack *pack, char **words, char **sets, struct gb_error *err)
 {
     if (!check_options(pack, err) ||
@@ -331,7 +336,7 @@ static bool prepare(struct pack *pack, char **words, char **sets, struct gb_erro
            (pack->directory == NULL || gb_rundir_check(pack->directory, pack->mode, err));
 }
 
-/* The initial packing of `run` with the same preset. */
+/* Grows the initial packing that `run` has with the same preset. */
 static bool grow(struct gb_packing *packing, struct gb_error *err)
 {
     struct gb_experiment *experiment = NULL;
@@ -364,7 +369,7 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
     return true;
 }
 
-/* Where not all files can be written, none is left. */
+/* Writes the files of the packing, or none of them. */
 static bool write_packing(const struct pack *pack, struct gb_error *err)
 {
     struct gb_rundir dir;

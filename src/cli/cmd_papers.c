@@ -14,7 +14,7 @@
 
 enum { COUNT_MIN = 50, COUNT_MAX = 1000000, CELLS_MAX = 1000 };
 
-/* Of an option that is not given. */
+/* Value of an option that is not given. */
 enum { DEFAULT = INT_MIN };
 
 /* The options of the command line. */
@@ -31,7 +31,7 @@ struct command {
     struct gb_batch_progress batch;
 };
 
-/* As the plan takes it: 0 without the option. */
+/* Value of an option for the plan: 0 if it is not given. */
 static int given(int value)
 {
     return value != DEFAULT ? value : 0;
@@ -61,7 +61,7 @@ static bool check_request(const struct request *request, char **words,
            check_range("--cells", request->cells, 1, CELLS_MAX, err);
 }
 
-/* The list of runs, before anything is written. */
+/* Makes the list of runs, before anything is written. */
 static bool prepare(struct command *command, char **words, struct gb_error *err)
 {
     const struct request *request = command->request;
@@ -132,7 +132,7 @@ static bool check_runs(const struct command *command, struct gb_error *err)
     return good;
 }
 
-/* The page is written after an interrupted call, too. */
+/* Writes the page even after an interrupt. */
 static bool perform(struct command *command, char **words, const char *line,
                     struct gb_error *err)
 {
@@ -164,7 +164,7 @@ static bool perform(struct command *command, char **words, const char *line,
     return check_runs(command, err);
 }
 
-/* The experiments under the options. */
+/* The experiments for the help, after the options. */
 static char *describe_experiments(void)
 {
     GString *text =

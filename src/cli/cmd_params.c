@@ -43,7 +43,8 @@ static struct gb_listing *list_keys(void)
     return listing;
 }
 
-/* The values of a material, those that are guessed, and its file; why it cannot be read. */
+/* Adds the values of a material, the guessed ones, and its file; or why it cannot be
+ * read. */
 static void add_material(struct gb_listing *listing, const char *name)
 {
     static const char *const keys[] = {"young", "poisson", "density",

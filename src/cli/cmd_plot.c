@@ -1,3 +1,6 @@
+/* `greenbody plot`: figures of runs as PNG, SVG or PDF.  The table of figures
+ * (figures/) defines which options a figure reads; this file checks the options, reads
+ * the runs and the data to compare with, and draws the figure. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -75,7 +78,7 @@ static bool parse_densities(const char *text, struct gb_figures_input *to,
                         text, GB_FIGURES_DENSITIES);
 }
 
-/* Options that belong to some figures only. */
+/* Rejects options that the figure does not read. */
 static bool check_options(const struct request *request,
                           const struct gb_figures_row *figure, struct gb_error *err)
 {
@@ -105,7 +108,7 @@ static enum gb_plotting_existing existing_files(const struct request *request)
     return request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP;
 }
 
-/* All checks that are possible before the runs are read. */
+/* Makes all checks that are possible before the runs are read. */
 static bool check_request(const struct request *request,
                           const struct gb_figures_row *figure, char **words,
                           struct gb_error *err)
@@ -117,8 +120,8 @@ static bool check_request(const struct request *request,
             gb_plotting_check(request->output, existing_files(request), err));
 }
 
-/* The directories to read; the reference is added where it is none of them.  Returns its
- * index. */
+/* Lists the directories to read, and adds the reference if it is not among them.
+ * Returns the index of the reference. */
 static size_t list_directories(char **words, const char *reference, GPtrArray *list)
 {
     for (size_t i = 0; words[i] != NULL; i++) {
@@ -157,7 +160,7 @@ static void set_log(struct gb_series *series, const char *axes)
     series->y.log = series->y.log || (axes != NULL && strchr(axes, 'y') != NULL);
 }
 
-/* "5:9" along x, or none. */
+/* Reads "5:9", the range of an inset along x; or none. */
 static bool set_inset(struct gb_series *series, const char *text, struct gb_error *err)
 {
     const char *end = NULL;
@@ -176,7 +179,8 @@ static bool set_inset(struct gb_series *series, const char *text, struct gb_erro
     return true;
 }
 
-/* Points with other axes than pressure and density are in a table of this program. */
+/* Adds measured points.  Points for other axes than pressure and density come from a
+ * table of this program. */
 static bool add_data(struct gb_series *series, const struct request *request,
                      struct gb_error *err)
 {
@@ -189,7 +193,7 @@ static bool add_data(struct gb_series *series, const struct request *request,
     return good;
 }
 
-/* The printed numbers of the scenes of these runs. */
+/* Adds the values printed in the papers for the scenes of these runs. */
 static bool add_paper(struct gb_series *series, const struct request *request,
                       const struct gb_figures_row *figure, const struct gb_runset *set,
                       struct gb_error *err)
@@ -242,7 +246,7 @@ static bool plot_runs(const struct request *request, const struct gb_figures_row
     return good;
 }
 
-/* The figure of a law: of its own preset unless another is named. */
+/* Draws the figure of a law, with the figure's own preset unless another is named. */
 static bool plot_scene(const struct request *request, const struct gb_figures_row *figure,
                        struct gb_figures_input *input, char **words, struct gb_error *err)
 {
@@ -288,7 +292,7 @@ static bool plot(const struct request *request, char **words, struct gb_error *e
                : plot_runs(request, figure, &input, words, err);
 }
 
-/* The list of figures under the options. */
+/* The list of figures for the help, after the options. */
 static char *describe_figures(void)
 {
     GString *text = g_string_new("Figures:\n");
@@ -325,7 +329,7 @@ static char *describe_option(const char *what, enum gb_figures_options option)
     return text;
 }
 
-/* Texts of the options that follow from the tables. */
+/* Texts of options that depend on the tables. */
 struct option_texts {
     char *output, *reference, *density, *pressure, *at;
 };

@@ -10,13 +10,13 @@
 
 enum { DIRECTORIES_MAX = 1000 };
 
-/* Measured points of a command line. */
+/* The measured points given on the command line. */
 struct measured {
     char *path;
     struct gb_lab_input lab;
 };
 
-/* A table of this program may have the axes of any figure. */
+/* Reads measured data.  A table of this program may have the axes of any figure. */
 static bool read_data(struct gb_table **table, const struct measured *measured,
                       struct gb_error *err)
 {

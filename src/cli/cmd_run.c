@@ -11,21 +11,21 @@
 #include "run/cost.h"
 #include "scene/loading_kind.h"
 
-/* A run without screen: a simulation (greenbody/simulation.h) with signals, progress on
- * stderr and the exit status of the command. */
+/* A run without the screen: a simulation (greenbody/simulation.h) with signal handling,
+ * progress on stderr and the exit status of the command. */
 struct foreground {
     struct gb_simulation *simulation; /* owned; NULL before foreground_attach */
     struct gb_progress progress;
-    bool json; /* the end of the run as JSON on stdout */
-    /* Called while the packing is built; NULL: nothing is done. */
+    bool json; /* print the result as JSON on stdout */
+    /* Called while the packing is built; NULL: none. */
     void (*on_packing)(void *data);
     void *data;
-    char stopped[64]; /* why a signal ends the run */
+    char stopped[64]; /* text about the signal that ends the run */
 };
 
 /* --- callbacks of the simulation --------------------------------------------------- */
 
-/* After a hang-up messages go to the run directory only. */
+/* After a hang-up, messages go only to the run directory. */
 static void handle_hangup(struct foreground *run)
 {
     struct gb_run_loop *loop = &run->simulation->loop;
@@ -77,14 +77,15 @@ static void on_progress(void *data, struct gb_simulation *simulation, double sha
 
 /* --------------------------------------------------------------------------------- */
 
-/* Installs the signal handlers (cli/progress.h).  HUP is handled as output.on_hangup says. */
+/* Installs the signal handlers (cli/progress.h). output.on_hangup defines the effect of
+ * HUP. */
 static void foreground_init(struct foreground *run, bool quiet)
 {
     gb_progress_init(&run->progress, quiet);
     gb_progress_catch_signals(GB_SIGNALS_HANGUP_NOTED);
 }
 
-/* The simulation belongs to the foreground from now on. */
+/* Transfers the ownership of the simulation. */
 static void foreground_attach(struct foreground *run, struct gb_simulation *simulation)
 {
     run->simulation = simulation;
@@ -105,8 +106,8 @@ static int fail(struct foreground *run, const struct gb_error *err)
     return gb_progress_exit_status(err);
 }
 
-/* Prints err of a run that fails before it begins, and writes it to the status when there
- * is a directory; returns the exit status. */
+/* Handles an error before the run begins: prints it, writes it to the status if there
+ * is a directory, and returns the exit status. */
 static int foreground_fail(struct foreground *run, const struct gb_error *err)
 {
     if (run->simulation != NULL) {
@@ -127,13 +128,13 @@ static void summarise(struct foreground *run, enum gb_run_outcome outcome)
                     gb_store_directory(gb_run_recorder_store(loop->recorder)));
 }
 
-/* Runs to the end; returns the exit status.  Errors have been printed. */
+/* Runs to the end and returns the exit status.  Prints errors. */
 static int foreground_run(struct foreground *run)
 {
     struct gb_error error = {0};
     const enum gb_run_outcome outcome =
         gb_simulation_advance(run->simulation, INT64_MAX, &error);
-    /* without a recorder the packing was not built */
+    /* the packing was built only if there is a recorder */
     if (outcome == GB_RUN_OUTCOME_FAILED || run->simulation->loop.recorder == NULL ||
         run->simulation->loop.experiment == NULL) {
         return fail(run, &error);
@@ -158,7 +159,7 @@ static int cmd_resume_perform(struct foreground *run, const char *directory, boo
         return foreground_fail(run, &err);
     }
     foreground_attach(run, simulation);
-    if (simulation->loop.experiment == NULL) { /* killed before its first checkpoint */
+    if (simulation->loop.experiment == NULL) { /* no checkpoint yet */
         gb_progress_say(&run->progress,
                         "there is no checkpoint yet: the run starts again");
     }
@@ -201,7 +202,7 @@ int gb_cmd_resume(int argc, char **argv)
 
 /* A packing that takes longer than this (s) is announced before it is built. */
 static const double patience_s = 2.0;
-/* Seconds that a copy of a dynamic run is timed for the estimate of its cost. */
+/* Time (s) for which a copy of a dynamic run is computed to estimate the cost. */
 static const double copy_s = 0.3;
 
 struct run {
@@ -225,7 +226,7 @@ static struct gb_run_loop *loop_of(const struct run *run)
 
 static void on_packing(void *data);
 
-/* All checks that are possible before any work. */
+/* Makes all checks that are possible before any work. */
 static bool prepare(struct run *run, char **words, char **sets, struct gb_error *err)
 {
     struct gb_simulation *simulation = NULL;
@@ -258,7 +259,7 @@ static void announce(struct run *run)
     }
 }
 
-/* While the packing is built. */
+/* Called while the packing is built. */
 static void on_packing(void *data)
 {
     struct run *run = data;
@@ -268,8 +269,8 @@ static void on_packing(void *data)
     }
 }
 
-/* Fills the line with the estimated cost of a dynamic run.  Refuses one that takes longer
- * than an hour without --yes, before its directory is created. */
+/* Writes the estimated cost of a dynamic run to the line.  Without --yes a run that
+ * takes longer than an hour is refused before its directory is created. */
 static bool estimate(struct run *run, char *line, size_t size, struct gb_error *err)
 {
     const struct gb_params *params = params_of(run);

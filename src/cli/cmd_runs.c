@@ -22,7 +22,8 @@
 
 static const char working[] = "runs";
 
-/* Names are unique.  A run of the workbench is named by its path below the workbench's folder. */
+/* How runs are named, so that names are unique: runs of the workbench by their path
+ * below the workbench's folder, or all by whole paths. */
 enum names { NAMES_BELOW, NAMES_WHOLE };
 
 static void add(GPtrArray *list, const char *folder, enum names names)
@@ -37,8 +38,8 @@ static void add(GPtrArray *list, const char *folder, enum names names)
 }
 
 /* The runs (io/run_list.h) below these folders, sorted.  Without folders: below the
- * workbench's folder and below `runs` in the working folder, where `run` without --out puts
- * them.  g_ptr_array_unref. */
+ * workbench's folder and below `runs` in the working folder, where `run` writes without
+ * --out. g_ptr_array_unref. */
 static GPtrArray *runs_folders_list(char **folders)
 {
     GPtrArray *list = gb_run_list_new();
@@ -58,7 +59,7 @@ static GPtrArray *runs_folders_list(char **folders)
         char *real = realpath(item->directory, NULL);
         if (g_hash_table_add(seen, g_strdup(real ? real : item->directory))) {
             i++;
-        } else { /* below two of the folders */
+        } else { /* found below two of the folders */
             g_ptr_array_remove_index(list, i);
         }
         free(real);
@@ -68,7 +69,7 @@ static GPtrArray *runs_folders_list(char **folders)
     return list;
 }
 
-/* The same, those with an engine only. */
+/* The same, but only runs with an engine. */
 static GPtrArray *runs_folders_live(void)
 {
     GPtrArray *list = runs_folders_list(NULL);
@@ -81,8 +82,8 @@ static GPtrArray *runs_folders_live(void)
     return list;
 }
 
-/* Directory of a run of the workbench by its name, where nothing else has that name; else
- * the name.  g_free. */
+/* The directory of a workbench run with this name, if nothing else has the name;
+ * otherwise the name itself. g_free. */
 static char *runs_folders_find(const char *name)
 {
     char *folder = gb_run_lifecycle_folder();
@@ -106,7 +107,7 @@ static char *runs_folders_text(void)
     return text;
 }
 
-/* One line about a directory of many runs. */
+/* Prints one line about a directory of many runs. */
 static int print_runs(const char *directory, struct gb_error *err)
 {
     struct gb_runset_view view;
@@ -119,7 +120,7 @@ static int print_runs(const char *directory, struct gb_error *err)
     return read ? 0 : gb_options_fail(err);
 }
 
-/* Without a screen: progress lines, until the run or this command ends. */
+/* Prints progress lines until the run or this command ends. */
 static int print_progress(const char *directory, struct gb_error *err)
 {
     struct gb_runner *runner = NULL;
@@ -141,7 +142,7 @@ static int print_progress(const char *directory, struct gb_error *err)
         }
     }
     if (shot->error.code == GB_ERR_MACHINE || shot->error.code == GB_ERR_INPUT) {
-        /* the run could not be read; its own error is printed below */
+        /* the run could not be read; its error is printed below */
         *err = shot->error;
         gb_progress_clear(&progress);
         gb_runner_destroy(runner);
@@ -181,7 +182,7 @@ static GPtrArray *list_runs(void)
     return runs_folders_list(NULL);
 }
 
-/* The run that is chosen on the screen, g_free; NULL: none, or an error. */
+/* The run chosen on the screen, g_free; NULL: none, or an error. */
 static char *choose(const struct gb_settings *settings, int *status, struct gb_error *err)
 {
     char *directory = NULL;
@@ -199,7 +200,7 @@ static char *choose(const struct gb_settings *settings, int *status, struct gb_e
     return directory;
 }
 
-/* Without a terminal the live runs are named. */
+/* Without a terminal: lists the live runs in the error. */
 static void name_live(struct gb_error *err)
 {
     GPtrArray *list = runs_folders_live();
@@ -220,7 +221,7 @@ static void name_live(struct gb_error *err)
     g_ptr_array_unref(list);
 }
 
-/* g_free; NULL: none, or an error. */
+/* The directory to follow, g_free; NULL: none, or an error. */
 static char *find_directory(char **words, const struct gb_settings *settings, int *status,
                             struct gb_error *err)
 {
@@ -308,8 +309,8 @@ static void print_line(const char *name, int cols, char *values)
     g_free(values);
 }
 
-/* A list of runs (io/run_list.h) on stdout: a line each below a head, or with --json an
- * object {"runs": [{...}, ...]}, in which what is not there is null. */
+/* Prints a list of runs: one line each below a head, or with --json an object {"runs":
+ * [{...}, ...]} with null for missing values. */
 static void runs_output_table(const GPtrArray *list)
 {
     const int cols = name_cols(list);

@@ -14,12 +14,12 @@
 
 static const char diameter_prefix[] = "diameter_";
 
-/* A measured histogram; arrays belong to the table. */
+/* A measured histogram; the arrays belong to the table. */
 struct histogram {
     struct gb_table *table;
-    const char *unit; /* of the diameters, within a name of the table */
+    const char *unit; /* unit of the diameters, in the name of a column */
     const double *middle, *weight;
-    bool particles; /* weights by number of particles */
+    bool particles; /* weights are numbers of particles */
 };
 
 static const double *find_diameter(struct histogram *histogram, struct gb_error *err)
@@ -68,7 +68,7 @@ static bool read_histogram(struct histogram *histogram, const char *path,
     return histogram->middle != NULL;
 }
 
-/* As keys of a preset, rounded to their accuracy. */
+/* Prints the law as keys of a preset, rounded to their accuracy. */
 static void print_keys(const struct gb_lognormal *law, const char *unit)
 {
     gb_visible_print(stdout,

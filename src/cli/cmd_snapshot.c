@@ -1,3 +1,6 @@
+/* `greenbody snapshot`: pictures of a packing, or of all states of a run as frames of a
+ * film.  It reads states from run directories or files, draws them with the chosen
+ * colours, camera and size, and pipes frames to ffmpeg. */
 #include <signal.h>
 #include <string.h>
 
@@ -101,7 +104,8 @@ static bool parse_request(const struct request *request,
            parse_style(request, &packing_image->style, err);
 }
 
-/* --since: another run directory or state file, or a point of the same run. */
+/* Reads the state of --since: another run directory or state file, or a point of the
+ * same run. */
 static bool read_since(struct gb_state **out, const char *since, const char *path,
                        struct gb_error *err)
 {
@@ -111,7 +115,7 @@ static bool read_since(struct gb_state **out, const char *since, const char *pat
 
 enum { PATHS_MAX = GB_PACKING_IMAGE_ROWS };
 
-/* The states of all paths. */
+/* Reads the states of all paths. */
 static bool read_states(struct gb_state **states, const struct request *request,
                         char **paths, struct gb_error *err)
 {
@@ -148,7 +152,7 @@ static bool write_picture(const struct request *request,
     return done;
 }
 
-/* Progress of the frames, with its start. */
+/* Progress of the frames, with the time of the start. */
 struct frames {
     struct gb_progress progress;
     double from_s;
@@ -217,7 +221,7 @@ static bool take_picture(const struct request *request, char **words,
            write_picture(request, &packing_image, words, err);
 }
 
-/* The quantities of --color, for its help; g_free. */
+/* The quantities of --color, for the help; g_free. */
 static char *describe_colours(void)
 {
     char *particles = gb_picture_colours_names(GB_PICTURE_COLOURS_PARTICLES);
@@ -247,7 +251,7 @@ static const struct gb_options_page page = {
                "run.",
 };
 
-/* As gb_options_parse. */
+/* Reads the options, as gb_options_parse. */
 static bool parse_options(struct request *request, int argc, char **argv, char ***words,
                           int *status)
 {
@@ -314,7 +318,7 @@ int gb_cmd_snapshot(int argc, char **argv)
         free_request(&request);
         return status;
     }
-    signal(SIGPIPE, SIG_IGN); /* the pipe of an ffmpeg that has ended is an error, too */
+    signal(SIGPIPE, SIG_IGN); /* writing to an ffmpeg that has ended is an error */
     const bool done = take_picture(&request, words, &err);
     g_strfreev(words);
     free_request(&request);

@@ -74,7 +74,7 @@ static bool write_listing(const struct gb_listing *listing, const char *director
     return good;
 }
 
-/* Each method at each packing of the study. */
+/* Studies each method at each packing of the study. */
 static bool perform_study(const char *directory, struct gb_error *err)
 {
     struct gb_listing *listing = gb_listing_new();
@@ -88,14 +88,14 @@ static bool perform_study(const char *directory, struct gb_error *err)
     return good;
 }
 
-/* --- a scene --------------------------------------------------------------------------- */
+/* --- a scene ------------------------------------------------------------------------ */
 
 struct scene {
     char *directory, *at, *command;
     gboolean quiet;
     struct gb_listing *listing;
     int rows, rows_most, missed;
-    char method[16];    /* the least margin so far: its method ... */
+    char method[16];    /* method with the least margin so far ... */
     double least, step; /* ... measured / used, and the step that was measured */
 };
 
@@ -119,7 +119,7 @@ static bool add_scene_row(void *data, const struct gb_stability_row *row,
         scene->step = row->measured;
         g_strlcpy(scene->method, row->method, sizeof scene->method);
     }
-    if (!scene->quiet && !isatty(STDOUT_FILENO)) { /* as the workbench reads it */
+    if (!scene->quiet && !isatty(STDOUT_FILENO)) { /* the workbench reads these lines */
         gb_visible_line(stderr, "%d of %d states: %s, p %.4g MPa", scene->rows,
                         scene->rows_most, row->method, 1e-6 * row->p_pa);
     }

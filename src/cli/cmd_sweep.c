@@ -1,3 +1,7 @@
+/* `greenbody sweep`: runs of a preset over a grid or a design of parameters, with
+ * replicas (many/param_sweep.h).  The command checks and estimates the sweep, computes
+ * the runs of its part, and writes the tables when all runs are known.  Several
+ * processes may share a sweep. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +18,7 @@
 
 enum { REPLICAS_MAX = 100000 };
 
-/* What a shell leaves as it is. */
+/* Characters that need no quotes in a shell. */
 static const char plain_signs[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                   "0123456789_./:=,@%+-";
 
@@ -33,7 +37,7 @@ struct command {
     struct gb_preset *preset;
     struct gb_param_sweep sweep;
     struct gb_batch_progress batch;
-    char estimate[160]; /* a line for stderr; empty where there is no estimate */
+    char estimate[160]; /* line for stderr; empty without an estimate */
 };
 
 static bool check_request(const struct request *request, struct gb_error *err)
@@ -56,7 +60,7 @@ static bool check_request(const struct request *request, struct gb_error *err)
                         request->replicas, REPLICAS_MAX);
 }
 
-/* "3/8" as part 2 of 8, counted from 0. */
+/* Reads "3/8" as part 2 of 8, counted from 0. */
 static bool set_part(struct command *command, struct gb_error *err)
 {
     const char *text = command->request->part;
@@ -96,8 +100,8 @@ static bool add_axes(struct command *command, struct gb_error *err)
     return true;
 }
 
-/* Refuses a sweep that is estimated to take longer than an hour without --yes.  One that a
- * launcher has started is deliberate. */
+/* Without --yes refuses a sweep that is estimated to take longer than an hour, unless a
+ * launcher started it. */
 static bool estimate(struct command *command, struct gb_error *err)
 {
     const struct request *request = command->request;
@@ -123,7 +127,7 @@ static bool estimate(struct command *command, struct gb_error *err)
     return true;
 }
 
-/* All checks that are possible before anything is written. */
+/* Makes all checks that are possible before anything is written. */
 static bool prepare(struct command *command, char **words, struct gb_error *err)
 {
     const struct request *request = command->request;
@@ -146,7 +150,8 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
            (request->tasks || gb_ensemble_make_directory(request->out, err));
 }
 
-/* sensitivity.csv of a design, and its last densities for people. */
+/* Writes sensitivity.csv of a design and prints the sensitivities of the last
+ * densities. */
 static bool write_sensitivities(struct command *command, struct gb_error *err)
 {
     struct gb_sensitivity sensitivity = {0};
@@ -190,8 +195,10 @@ static bool check_runs(const struct command *command, struct gb_error *err)
     return good;
 }
 
-/* Writes the tables, unless other processes have runs under way: the last one does it.
- * collected   all runs are known here, and what can be said of them is said */
+/* Writes the tables, unless other processes still compute runs; then the last process
+ * does it.
+ * collected   set to true if all runs are known here, so that conclusions can be printed
+ */
 static bool write_tables(struct command *command, bool *collected, struct gb_error *err)
 {
     const struct request *request = command->request;
@@ -218,7 +225,7 @@ static void print_left(const struct command *command)
     }
 }
 
-/* The command with --part in place of --tasks for each run that is not done. */
+/* Prints the command with --part instead of --tasks for each run that is not done. */
 static void print_tasks(const struct command *command)
 {
     const struct request *request = command->request;
@@ -256,7 +263,7 @@ static bool report_missing(const struct command *command, struct gb_error *err)
                         ensemble->points * ensemble->replicas, command->request->out);
 }
 
-/* What there is to say once all runs are known. */
+/* Prints the conclusions once all runs are known. */
 static bool conclude(struct command *command, struct gb_error *err)
 {
     if (command->sweep.axes.design > 0 && !write_sensitivities(command, err)) {
@@ -279,8 +286,8 @@ static bool collect(struct command *command, struct gb_error *err)
     return good && report_missing(command, err) && conclude(command, err);
 }
 
-/* The tables are written after an interrupted sweep, too.  A launcher ends all processes
- * when one of them fails: what failed here is reported by the last one. */
+/* Computes the runs and writes the tables, even after an interrupt.  A launcher ends
+ * all processes if one fails, so the last process reports the failures of this one. */
 static bool work(struct command *command, struct gb_error *err)
 {
     const struct request *request = command->request;
@@ -365,7 +372,7 @@ static const struct gb_options_page page = {
 int gb_cmd_sweep(int argc, char **argv)
 {
     struct request request = {.replicas = 1};
-    char **typed = g_new0(char *, (gsize)argc + 1); /* parsing takes words away */
+    char **typed = g_new0(char *, (gsize)argc + 1); /* parsing removes words */
     struct command command = {.request = &request};
     struct gb_error err = {0};
     char **words = NULL;

@@ -22,7 +22,7 @@ static bool names_preset(char **words)
     return false;
 }
 
-/* The words after the preset `default`. */
+/* The words with the preset `default` before them. */
 static char **with_default(char **words)
 {
     GPtrArray *all = g_ptr_array_new();
@@ -35,7 +35,7 @@ static char **with_default(char **words)
     return (char **)g_ptr_array_free(all, FALSE);
 }
 
-/* From the key table of the workbench. */
+/* Prints the key table of the workbench. */
 void gb_cmd_workbench_keys(void)
 {
     const size_t count = gb_keys_count();
@@ -55,7 +55,7 @@ void gb_cmd_workbench_views(void)
     }
 }
 
-/* Prints the output of --diagnose, or opens the workbench; returns the exit status. */
+/* Prints the output of --diagnose or opens the workbench; returns the exit status. */
 static int open_workbench(const struct gb_screen_options *screen, char **words,
                           char **sets, const char *folder)
 {

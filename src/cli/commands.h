@@ -3,9 +3,9 @@
 
 #include <stdio.h>
 
-/* A command is a function in a file cmd_NAME.c (close relatives share one), its prototype
- * below and a row in commands.c; help, manual page, dispatch and messages follow from the
- * row. */
+/* A command is a function in a file cmd_NAME.c (related commands share one), with its
+ * prototype below and a row in commands.c.  Help, manual page, dispatch and messages
+ * follow from the row. */
 struct gb_commands_row {
     const char *group; /* heading in the help */
     const char *name;
@@ -13,17 +13,17 @@ struct gb_commands_row {
     int (*function)(int argc, char **argv); /* argv[0] is the name; the exit status */
 };
 
-/* NULL for a word that is no command. */
+/* The row of a command; NULL if the word is not a command. */
 const struct gb_commands_row *gb_commands_find(const char *name);
 
-/* Row by row; NULL behind the last. */
+/* Row `index`; NULL after the last. */
 const struct gb_commands_row *gb_commands_at(size_t index);
 
-/* The commands by group, as in the help. */
+/* Prints the commands by group, as in the help. */
 void gb_commands_print(FILE *to);
-/* "NAME DOC", a line each, for the manual page. */
+/* Prints lines "NAME DOC" for the manual page. */
 void gb_commands_print_plain(FILE *to);
-/* "run, resume, ...".  Caller g_frees. */
+/* "run, resume, ..."; g_free. */
 char *gb_commands_names(void);
 
 int gb_cmd_attach(int argc, char **argv);
@@ -51,7 +51,7 @@ int gb_cmd_sweep(int argc, char **argv);
 int gb_cmd_verify(int argc, char **argv);
 int gb_cmd_yield(int argc, char **argv);
 
-/* Without a command: the workbench, the list of its keys, and that of its views (key and
+/* Without a command: opens the workbench; prints its keys; prints its views (key and
  * title in a quasi-static scene). */
 int gb_cmd_workbench(int argc, char **argv);
 void gb_cmd_workbench_keys(void);

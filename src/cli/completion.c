@@ -1,3 +1,6 @@
+/* Completion of command lines for the shells; see completion.h.  The word to be
+ * completed is recognised by its position: an option, the value of an option, or a
+ * positional word of the usage line.  Candidates come from the tables of the program. */
 #include "cli/completion.h"
 
 #include <glib.h>
@@ -18,23 +21,24 @@
 #include "study/law_table.h"
 #include "tui/term/settings.h"
 
-/* Continuations of a word, printed to stdout as they are found. */
+/* Possible continuations of a word, printed to stdout as they are found. */
 struct candidates {
-    const char *prefix; /* what is typed of the part that is completed */
-    const char *before; /* what stands before that part in the same word, as "--set=" */
+    const char *prefix; /* the typed part of what is completed */
+    const char *before; /* text before that part in the same word, such as "--set=" */
 };
 
-/* What a path may name. */
+/* Kinds of paths. */
 enum path_kind { PATH_FILE, PATH_FOLDER, PATH_RUN };
 
-/* A description takes one line of the list. */
+/* Columns of a description, so that it takes one line of the list. */
 enum { DOC = 90 };
 
-/* Prints a candidate that need not begin with the prefix: a key typed without its group. */
+/* Prints a candidate that may not begin with the prefix: a key typed without its group.
+ */
 static void add_any(const struct candidates *to, const char *candidate, const char *doc)
 {
     char *shown = gb_visible_text(candidate, "");
-    if (strcmp(shown, candidate) == 0) { /* an escape would complete another word */
+    if (strcmp(shown, candidate) == 0) { /* the word must not change by escapes */
         gb_visible_print(stdout, "%s%s\t%.*s\n", to->before, candidate,
                          doc != NULL ? MIN((int)strcspn(doc, "\n"), DOC) : 0,
                          doc != NULL ? doc : "");
@@ -51,7 +55,7 @@ static void add_candidate(const struct candidates *to, const char *candidate,
     }
 }
 
-/* Presets by name. */
+/* Prints presets by name. */
 static void candidates_presets(const struct candidates *to)
 {
     char **names = gb_preset_folders_list();
@@ -61,8 +65,8 @@ static void candidates_presets(const struct candidates *to)
     g_strfreev(names);
 }
 
-/* The folder that a typed path is in, to be opened: "" is the working folder, a leading "~/"
- * the user's. */
+/* The folder of a typed path, to be opened: "" is the working folder, a leading "~/"
+ * the home directory. */
 static char *folder_of(const char *typed, size_t length)
 {
     char *folder = g_strndup(typed, length);
@@ -83,7 +87,7 @@ static bool has_ending(const char *name, const char *const *endings)
     return found;
 }
 
-/* Of one run, or of many. */
+/* Is the folder a run, or a directory of runs? */
 static bool is_run(const char *folder)
 {
     static const char *const signs[] = {"preset.ini", "sweep.csv", "calibration.csv"};
@@ -116,7 +120,8 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Files with one of the endings ("" or NULL: any), folders, or directories of runs. */
+/* Completes files with one of the endings ("" or NULL: any), folders, or directories of
+ * runs. */
 static void complete_paths(const struct candidates *to, enum path_kind kind,
                            const char *const *endings)
 {
@@ -135,7 +140,7 @@ static void complete_paths(const struct candidates *to, enum path_kind kind,
     if (dir != NULL) {
         g_dir_close(dir);
     }
-    /* a folder lists its files in an order of its own, which differs between disks */
+    /* the order of files in a folder depends on the file system */
     g_ptr_array_sort(names, by_name);
     for (guint i = 0; i < names->len; i++) {
         const char *name = g_ptr_array_index(names, i);
@@ -149,9 +154,9 @@ static void complete_paths(const struct candidates *to, enum path_kind kind,
     g_free(folder);
 }
 
-/* --- keys and their values ------------------------------------------------------------ */
+/* --- keys and their values ---------------------------------------------------------- */
 
-/* Each name of a list "a, b, c" from the table of units. */
+/* Adds each name of a list "a, b, c" from the table of units. */
 static void add_units(const struct candidates *to, const char *number, const char *units)
 {
     char **names = g_strsplit(units, ", ", -1);
@@ -163,7 +168,7 @@ static void add_units(const struct candidates *to, const char *number, const cha
     g_strfreev(names);
 }
 
-/* "10" or "10n": the number with every unit of its key. */
+/* Completes "10" or "10n": the number with every unit of its key. */
 static void add_number(const struct candidates *to, const struct gb_field *field)
 {
     const char *end = to->prefix;
@@ -183,7 +188,7 @@ static void add_number(const struct candidates *to, const struct gb_field *field
     g_free(number);
 }
 
-/* The part of a value behind the last separator is completed. */
+/* Completes the part of a value after the last separator. */
 static void add_values(const struct candidates *to, const struct gb_field *field)
 {
     char accepted[512];
@@ -247,7 +252,7 @@ static void complete_value(const struct candidates *to, const char *equals)
     g_free(name);
 }
 
-/* "material=": all keys of the group by a name. */
+/* Completes "material=": a name that sets all keys of the group. */
 static void add_whole(const struct candidates *to, const char *group)
 {
     if (strcmp(group, GB_MATERIAL_GROUP) == 0) {
@@ -255,7 +260,7 @@ static void add_whole(const struct candidates *to, const char *group)
     }
 }
 
-/* Groups for a beginning of a group, keys for a group, and keys by their own names. */
+/* Completes groups, the keys of a group, and keys without their group. */
 static void complete_name(const struct candidates *to)
 {
     size_t count = 0;
@@ -281,7 +286,7 @@ static void complete_name(const struct candidates *to)
     }
 }
 
-/* "group." and "group.key=", also by the key alone; values behind the sign. */
+/* Completes "group." and "group.key=", also the key alone, and values after the sign. */
 static void complete_keys(const struct candidates *to)
 {
     const char *equals = strchr(to->prefix, '=');
@@ -292,7 +297,7 @@ static void complete_keys(const struct candidates *to)
     }
 }
 
-/* Keys of a list "key,key": the last one. */
+/* Completes the last key of a list "key,key". */
 static void complete_keys_list(const struct candidates *to)
 {
     const char *comma = strrchr(to->prefix, ',');
@@ -303,7 +308,7 @@ static void complete_keys_list(const struct candidates *to)
     g_free(before);
 }
 
-/* --- values of options ---------------------------------------------------------------- */
+/* --- values of options -------------------------------------------------------------- */
 
 static void add_figures(const struct candidates *to)
 {
@@ -337,7 +342,7 @@ static void add_lattices(const struct candidates *to)
     }
 }
 
-/* The contact laws. */
+/* Completes contact laws. */
 static void complete_value_laws(const struct candidates *to)
 {
     size_t count = 0;
@@ -362,7 +367,7 @@ static void add_colours(const struct candidates *to)
     }
 }
 
-/* Options whose values are the names of a table. */
+/* Options whose values are names of a table. */
 static const struct {
     const char *command, *option; /* command NULL: any */
     void (*add)(const struct candidates *to);
@@ -378,7 +383,7 @@ static const struct {
     {"calibrate", "free", complete_keys_list},
 };
 
-/* Of an option of the workbench, from its settings. */
+/* Completes the value of a workbench option from its settings. */
 static bool add_setting(const struct candidates *to, const char *command,
                         const char *option)
 {
@@ -395,7 +400,7 @@ static bool add_setting(const struct candidates *to, const char *command,
     return false;
 }
 
-/* "FILE.png|svg|pdf": the endings, NULL for any. */
+/* The endings in "FILE.png|svg|pdf"; NULL for any. */
 static char **endings_of(const char *description)
 {
     const char *dot = strchr(description, '.');
@@ -408,7 +413,7 @@ static char **endings_of(const char *description)
     return endings;
 }
 
-/* "auto|never": words that stand for themselves are written in small letters. */
+/* Completes "auto|never": words in lower case stand for themselves. */
 static void add_words(const struct candidates *to, const char *description)
 {
     char **words = g_strsplit(description, "|", -1);
@@ -420,8 +425,8 @@ static void add_words(const struct candidates *to, const char *description)
     g_strfreev(words);
 }
 
-/* The value of an option by the name of the command and the option, and what the option's
- * description says: names of a table, keys, files or folders. */
+/* Completes the value of an option, by the names of command and option and by its
+ * description: names of a table, keys, files or folders. */
 static void complete_option(const struct candidates *to, const char *command,
                             const GOptionEntry *entry)
 {
@@ -448,7 +453,7 @@ static void complete_option(const struct candidates *to, const char *command,
     }
 }
 
-/* --- command lines -------------------------------------------------------------------- */
+/* --- command lines ------------------------------------------------------------------ */
 
 bool gb_completion_requested(int argc, char **argv)
 {
@@ -490,7 +495,7 @@ static void add_options(const struct candidates *to, const GOptionEntry *entries
     add_candidate(to, "--help", "show the help page");
 }
 
-/* Whether the words have one that is neither option, value nor assignment. */
+/* Is one of the words neither an option, a value nor an assignment? */
 static bool has_name(const GOptionEntry *entries, char **words, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -504,8 +509,8 @@ static bool has_name(const GOptionEntry *entries, char **words, int count)
     return false;
 }
 
-/* What the usage line of the command takes: PRESET, DIR, FILE, NAME, group.key=value.
- * Words that are repeated have "..." behind them. */
+/* Completes what the usage line of the command takes: PRESET, DIR, FILE, NAME,
+ * group.key=value.  Words that may be repeated are followed by "...". */
 static void add_positions(const struct candidates *to, const char *usage, bool named)
 {
     static const char *const presets[] = {".ini", ".png", NULL};
@@ -569,7 +574,7 @@ void gb_completion_first(const char *prefix)
         add_candidate(&to, "--version", "version, compiler, features, threads");
         add_candidate(&to, "--batch", "greenbody run instead of the workbench");
         add_candidate(&to, "--keys", "the keys of the workbench");
-        return; /* the other options are those of the workbench */
+        return; /* the other options belong to the workbench */
     }
     for (size_t i = 0; gb_commands_at(i) != NULL; i++) {
         add_candidate(&to, gb_commands_at(i)->name, gb_commands_at(i)->doc);

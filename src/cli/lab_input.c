@@ -11,7 +11,7 @@
 
 enum { ANSWER_MAX = 1024, QUESTIONS_MAX = 10 };
 
-/* Options with one value each; the names are keys of the list of --columns as well. */
+/* Options with one value each; the names are also keys of the list of --columns. */
 static const struct {
     const char *key, *doc, *argument;
 } keys[GB_LAB_INPUT_KEYS] = {
@@ -90,7 +90,7 @@ static bool parse(const struct gb_lab_input *input, struct gb_lab_options *optio
     return true;
 }
 
-/* Without a terminal: what to give. */
+/* Without a terminal: fails with the options to give. */
 static bool refuse(const char *path, const struct gb_lab_report *report,
                    struct gb_error *err)
 {
@@ -105,7 +105,8 @@ static bool refuse(const char *path, const struct gb_lab_report *report,
     return false;
 }
 
-/* One line of stdin, a number of a choice or a list, into the options; false: none. */
+/* Reads a line of stdin, the number of a choice or a list, into the options; false: no
+ * line. */
 static bool ask(const char *path, const struct gb_lab_report *report,
                 struct gb_lab_options *options, struct gb_error *err)
 {
@@ -127,7 +128,7 @@ static bool ask(const char *path, const struct gb_lab_report *report,
     }
     struct gb_error why = {0};
     if (!gb_lab_options_parse(options, list, &why)) {
-        gb_visible_line(stderr, "%s", why.text); /* and the same question again */
+        gb_visible_line(stderr, "%s", why.text); /* then the question is repeated */
     }
     return true;
 }

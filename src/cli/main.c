@@ -40,8 +40,8 @@ static const struct {
     {"143", "stopped by SIGTERM; points and state are kept"},
 };
 
-/* Exit statuses of all commands, "STATUS MEANING", a line each: the manual pages are made
- * from it, and tests/pages.py compares docs/manual.md with it. */
+/* Exit statuses of all commands, one line "STATUS MEANING" each.  The manual pages are
+ * made from it, and tests/pages.py compares docs/manual.md with it. */
 static void exit_status_print(FILE *to)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
@@ -117,7 +117,7 @@ static int refuse_word(const char *word)
     return gb_options_fail(&err);
 }
 
-/* Whether the first word can be a preset, a file or an assignment. */
+/* Can the first word be a preset, a file or an assignment? */
 static bool may_open(const char *word)
 {
     if (strchr(word, '=') || strchr(word, '/') || g_file_test(word, G_FILE_TEST_EXISTS)) {
@@ -179,11 +179,11 @@ static int dispatch(int argc, char **argv)
         print_version();
         return 0;
     }
-    if (strcmp(word, "--keys") == 0) { /* of the workbench, for the manual page */
+    if (strcmp(word, "--keys") == 0) { /* keys of the workbench, for the manual page */
         gb_cmd_workbench_keys();
         return 0;
     }
-    if (strcmp(word, "--views") == 0) { /* of the workbench, for tests */
+    if (strcmp(word, "--views") == 0) { /* views of the workbench, for tests */
         gb_cmd_workbench_views();
         return 0;
     }
@@ -203,15 +203,16 @@ static int dispatch(int argc, char **argv)
                            : open_scene(argc, argv);
 }
 
-/* Memory of large arrays goes back to the system when they are freed: the C library would
- * come to keep those of up to 32 MB, of every thread. */
+/* Returns the memory of large arrays to the system when they are freed.  By default the
+ * C library would keep up to 32 MB per thread. */
 static void set_heap(void)
 {
 #ifdef __GLIBC__
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
     (void)mallopt(M_TRIM_THRESHOLD, 4 << 20);
-    /* A thread that finds no 64 MB of addresses for a heap of its own has a page mapped for
-     * every small piece, and HDF5, which asks for thousands, ends the program. */
+    /* One heap for all threads.  A thread that finds no 64 MB of addresses for a heap
+     * of its own maps a page for every small allocation; HDF5 makes thousands, and
+     * aborts. */
     (void)mallopt(M_ARENA_MAX, 1);
 #endif
 }
@@ -221,7 +222,7 @@ int main(int argc, char **argv)
     gb_program_name_process();
     set_heap();
     gb_hdf_skip_exit();
-    /* Text in the user's locale, numbers always with a decimal point. */
+    /* Text in the user's locale, but numbers always with a decimal point. */
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");
     gsl_set_error_handler_off();

@@ -1,3 +1,5 @@
+/* Options that commands have in common: help pages and parsing, the screen, the size of
+ * pictures, --set and presets, and printing to stdout with its errors. */
 #include "cli/options.h"
 
 #include <errno.h>
@@ -79,7 +81,8 @@ void gb_options_screen_finish(struct gb_screen_options *options)
     g_free(options->mouse);
 }
 
-/* Words of an option: 1, or 2 where its value is the next word; 0: no screen option. */
+/* Number of words of an option: 2 if its value is the next word, else 1; 0: not a
+ * screen option. */
 static int words_of(const char *word)
 {
     static const char *const flags[] = {"--batch", "--ascii", "--slow"};
@@ -179,7 +182,7 @@ void gb_options_page_finish(struct gb_page_options *options)
     g_free(options->width);
 }
 
-/* What --json prints: one object on one or more lines, ended by a newline. */
+/* Output of --json: one object on one or more lines, followed by a newline. */
 
 static void print_node(JsonNode *root)
 {
@@ -245,7 +248,7 @@ static void print_help(GOptionContext *context)
     g_free(text);
 }
 
-/* The words that are no options, without the first "--". */
+/* The words that are not options, without the first "--". */
 static char **take_words(char **arguments)
 {
     GPtrArray *words = g_ptr_array_new();
@@ -328,7 +331,7 @@ static bool is_assignment(const char *word)
     return strchr(word, '=') != NULL;
 }
 
-/* The values of --set, all of them assignments. */
+/* Assigns the values of --set. */
 static bool assign_sets(struct gb_params *params, char **sets, struct gb_error *err)
 {
     for (int i = 0; sets != NULL && sets[i] != NULL; i++) {
@@ -349,7 +352,7 @@ static bool assign_words(struct gb_params *params, char **words, struct gb_error
     return true;
 }
 
-/* A word like "contact.mu", without a value and without a file of that name. */
+/* Is the word like "contact.mu", without a value, and not the name of a file? */
 static bool is_key(const char *word)
 {
     char **parts = g_strsplit(word, ".", 2);
@@ -359,7 +362,7 @@ static bool is_key(const char *word)
     return known && !g_file_test(word, G_FILE_TEST_EXISTS);
 }
 
-/* The only word that is no assignment, or NULL. */
+/* Finds the only word that is not an assignment, or NULL. */
 static bool find_name(char **words, const char **name, struct gb_error *err)
 {
     *name = NULL;
@@ -380,7 +383,8 @@ static bool find_name(char **words, const char **name, struct gb_error *err)
     return true;
 }
 
-/* The preset stored in a picture, through a temporary file with the picture's name. */
+/* Loads the preset stored in a picture, through a temporary file with the picture's
+ * name. */
 static bool load_from_picture(struct gb_preset **out, const char *path,
                               struct gb_error *err)
 {

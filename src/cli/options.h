@@ -17,25 +17,25 @@ struct gb_screen_options {
     gboolean ascii, slow, diagnose;
 };
 
-/* Puts their entries into a command's list, from *entry on. */
+/* Adds these options to a command's entries, beginning at *entry. */
 enum { GB_SCREEN_OPTIONS_ENTRIES = 9 };
 
 void gb_options_screen_entries(struct gb_screen_options *options, GOptionEntry *entry);
 
-/* The settings of the file, overruled by the options. */
+/* The settings from the file, with the options taking precedence. */
 bool gb_options_screen_settings(const struct gb_screen_options *options,
                                 struct gb_settings *settings, struct gb_error *err);
 
 void gb_options_screen_finish(struct gb_screen_options *options);
 
-/* Removes these options and --batch from the words of a command without a screen; returns
- * the number of words left. */
+/* Removes these options and --batch from the words of a command without a screen.
+ * Returns the number of remaining words. */
 int gb_options_screen_drop(int argc, char **argv);
 
-/* Whether `word` is among the words before a "--". */
+/* Is `word` among the words before a "--"? */
 bool gb_options_has(int argc, char **argv, const char *word);
 
-/* Options of the size of pictures and figures: pixels, or a width in print. */
+/* Options for the size of pictures and figures: pixels, or a width in print. */
 struct gb_page_options {
     char *size, *width; /* NULL: not given; owned */
     int per_inch;       /* 0: not given */
@@ -57,23 +57,23 @@ struct gb_page_options {
             "pixels per inch of print, with --width (300)", "N"                          \
     }
 
-/* Sets pixels and pixels per inch of print where options were given.  Errors: GB_ERR_INPUT
- * saying what is accepted. */
+/* Sets pixels and pixels per inch from the options that were given.  Errors:
+ * GB_ERR_INPUT with what is expected. */
 bool gb_options_page_take(const struct gb_page_options *options, int *width, int *height,
                           int *per_inch, struct gb_error *err);
 
-/* Widths of the columns of journals for the help of a command, with a line above; g_free. */
+/* Column widths of journals for the help of a command, with a heading; g_free. */
 char *gb_options_page_journals(void);
 
 void gb_options_page_finish(struct gb_page_options *options);
 
-/* Of a list: {name: [...]}.  Between both the elements are added to the builder, which the
- * second prints and frees. */
+/* For a list {name: [...]}: add the elements to the builder between the two calls.  The
+ * second prints and frees it. */
 JsonBuilder *gb_options_json_begin(const char *name);
 
 void gb_options_json_end(JsonBuilder *json);
 
-/* Of a run that has ended: the object of its status.json, with "directory". */
+/* Prints the result of a run: the object of its status.json with "directory". */
 void gb_options_json_run(const struct gb_run_loop *loop);
 
 /* Help page of a command. */
@@ -84,53 +84,53 @@ struct gb_options_page {
 };
 
 /* Reads the options of a command (entries end with a zeroed one) and returns the
- * remaining words (*words, g_strfreev).  False when the command ends here: --help was
- * printed or a word completed (*status 0), or the error of an option (*status 2). */
+ * remaining words (*words, g_strfreev).  False if the command ends here: after --help
+ * or a completion (*status 0), or after an error in an option (*status 2). */
 bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *entries,
                       int argc, char **argv, char ***words, int *status);
 
 /* The entry of --set. */
 GOptionEntry gb_options_set(char ***sets);
-/* The entry of --quiet, of commands with progress on stderr. */
+/* The entry of --quiet, for commands with progress on stderr. */
 GOptionEntry gb_options_quiet(gboolean *quiet);
 
-/* The entry of --json, of commands whose result other programs read. */
+/* The entry of --json, for commands with results for other programs. */
 GOptionEntry gb_options_json(gboolean *json);
 
 enum gb_options_preset {
-    GB_OPTIONS_PRESET_OPTIONAL, /* all defaults where no word names a preset */
+    GB_OPTIONS_PRESET_OPTIONAL, /* all defaults if no word names a preset */
     GB_OPTIONS_PRESET_NEEDED
 };
 
-/* The preset that the words name, or the one stored in a picture of this program (a word
- * ending in .png); then the assignments among the words and the values of --set.  sets may
- * be NULL.  The caller destroys *out. */
+/* Reads the preset that the words name, or the preset stored in a picture of this
+ * program (a word ending in .png).  Then applies the assignments among the words and
+ * the values of --set; sets may be NULL.  The caller destroys *out. */
 bool gb_options_preset(struct gb_preset **out, char **words, char **sets,
                        enum gb_options_preset need, struct gb_error *err);
 
-/* The same, checked as a scene. */
+/* The same, and checks it as a scene. */
 bool gb_options_scene(struct gb_preset **out, char **words, char **sets,
                       enum gb_options_preset need, struct gb_error *err);
 
-/* Points of --at (NULL: none), in the form of output.snapshots_at; "p=" before a pressure is
- * accepted.  Errors: GB_ERR_INPUT. */
+/* Points of --at (NULL: none) in the form of output.snapshots_at; "p=" before a
+ * pressure is allowed.  Errors: GB_ERR_INPUT. */
 bool gb_options_points(struct gb_keep_points *points, const char *at,
                        struct gb_error *err);
 
 /* The only word of a command that takes one run directory; NULL after an error. */
 const char *gb_options_directory(char **words, const char *command, struct gb_error *err);
 
-/* The command as typed, quoted for a shell, in one line behind a head; g_free. */
+/* The command as typed, quoted for a shell, on one line after a head; g_free. */
 char *gb_options_command(const char *head, int argc, char **argv);
 
-/* Writes "greenbody: text" to stderr and returns the exit status.  Silent for GB_OK: the
- * reader of a pipe has closed it. */
+/* Writes "greenbody: text" to stderr and returns the exit status.  Silent for GB_OK,
+ * when the reader of a pipe has closed it. */
 int gb_options_fail(const struct gb_error *err);
 
-/* Prints a text on stdout and frees it.  Errors: of gb_options_output_failed. */
+/* Prints a text on stdout and frees it.  Errors: see gb_options_output_failed. */
 bool gb_options_print(GString *text, struct gb_error *err);
 
-/* Call when writing to stdout failed, before errno changes.  Returns false. */
+/* Call this when writing to stdout failed, before errno changes.  Returns false. */
 bool gb_options_output_failed(struct gb_error *err);
 
 #endif

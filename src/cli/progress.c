@@ -24,7 +24,8 @@
 #include "many/single_run.h"
 #include "run/cost.h"
 
-/* Signals of a command without a screen. */
+/* Signals and progress of commands without a screen: the handlers, the progress of many
+ * runs (gb_batch_progress) and of a single run (gb_progress). */
 
 /* Set by the handlers, tested between slices. */
 static volatile sig_atomic_t caught, hung;
@@ -93,7 +94,7 @@ static const char tables_lock[] = ".lock";
 
 static const double lock_interval_s = 0.05;
 static const double lock_told_s = 60.0;
-/* Runs of other processes that a line names. */
+/* Largest number of runs of other processes named in a line. */
 enum { NAMED_MOST = 4 };
 
 bool gb_progress_batch_init(struct gb_batch_progress *batch, int jobs, bool quiet,
@@ -111,7 +112,7 @@ bool gb_progress_batch_init(struct gb_batch_progress *batch, int jobs, bool quie
     return true;
 }
 
-/* Runs at once of this process: `jobs`, or for 0 one per processor of it. */
+/* Number of workers of this process: `jobs`, or for 0 its number of processors. */
 static size_t workers_of(const struct gb_batch_progress *batch, int jobs)
 {
     return (size_t)(jobs > 0 ? jobs : gb_pool_cores(&batch->launch));
@@ -364,8 +365,8 @@ static void format_left(double seconds, char *text, size_t size)
     }
 }
 
-/* A run in a die: its stage, and the density where that changes by the pressure.  Powder comes
- * to rest when it does: no time is told then. */
+/* Progress of a die run: its stage, and the density if the pressure changes it.  No
+ * time is shown while powder comes to rest, because the end is unknown. */
 static void format_stage(const struct gb_snapshot *shot, char *line, size_t size)
 {
     char left[48], where[128], density[32] = "";
@@ -406,7 +407,7 @@ static void format_line(const struct gb_snapshot *shot, char *line, size_t size)
              shot->particle_evaluations_per_s / 1e6, 100.0 * shot->progress, left);
 }
 
-/* A line longer than the terminal would wrap and could not be rewritten. */
+/* Width of the terminal.  A longer line would wrap and could not be rewritten. */
 static int terminal_width(void)
 {
     struct winsize window;
@@ -416,7 +417,7 @@ static int terminal_width(void)
     return WIDTH_UNKNOWN;
 }
 
-/* Replaces the line of a terminal; a line more elsewhere. */
+/* Rewrites the line of a terminal; elsewhere prints another line. */
 static void write_line(struct gb_progress *progress, double seconds, char *line)
 {
     progress->line_at = seconds;
