@@ -16,8 +16,10 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term.h"
 
-/* The workbench: keys and mouse events go to the open dialog, the edited value or the key
- * table; a loop draws frames and takes news of the session. */
+/* The workbench.  Keys and mouse events go to the open dialog, the edited value or the
+ * key table.  The loop in gb_app_run waits for events, refreshes the session and draws
+ * at most ten frames per second.  A hang-up of the terminal ends the screen; the run
+ * then continues or stops as output.on_hangup says. */
 
 enum { WHEEL_ROWS = 3 };
 
@@ -27,7 +29,7 @@ static bool contains(const struct gb_rect *rect, int row, int col)
            col < rect->col + rect->cols;
 }
 
-/* The pane at a cell; GB_PANES: none. */
+/* The pane at a cell; GB_PANES if there is none. */
 static enum gb_pane pane_at(const struct gb_layout *layout, int row, int col)
 {
     for (enum gb_pane pane = GB_PANE_PARAMS; pane < GB_PANES; pane++) {
@@ -46,7 +48,7 @@ static void navigate(struct gb_screen *screen, enum gb_action action, int times)
     }
 }
 
-/* In dialogs and lists of choices the wheel acts as arrow keys. */
+/* In dialogs and lists of choices the wheel acts like arrow keys. */
 static void send_arrow(struct gb_app *app, const struct gb_term_event *event)
 {
     const struct gb_term_event key = {
@@ -64,7 +66,8 @@ static void click(struct gb_screen *screen, enum gb_pane pane, int row, int col)
     }
 }
 
-/* The wheel changes the focused value only, so that scrolling does not start runs. */
+/* Is the cell the focused value?  Only there the wheel changes it, so that scrolling
+ * does not start runs. */
 static bool over_value(struct gb_screen *screen, int row, int col)
 {
     struct gb_panel_params probe = screen->params;
@@ -99,9 +102,10 @@ static void app_key(struct gb_app *app, const struct gb_key *key)
     }
 }
 
-/* Mouse events.  A click focuses the pane and selects its row or point, presses a key of
- * the footer, or, on the title of the plot, shows the next view.  The wheel scrolls; over
- * the focused value it changes it.  Everything is possible with keys, too. */
+/* Handles a mouse event.  A click focuses the pane and selects its row or point,
+ * presses a key of the footer or, on the title of the plot, shows the next view.  The
+ * wheel scrolls, or changes the focused value if it is over it.  Keys can do all of
+ * this, too. */
 static void mouse_handle(struct gb_app *app, const struct gb_term_event *event)
 {
     struct gb_screen *screen = &app->screen;
@@ -184,11 +188,11 @@ void gb_app_event(struct gb_app *app, const struct gb_term_event *event)
     }
 }
 
-/* At most ten frames within any second, two with --slow.  Updates of the engine are
- * spaced wider, so that a frame is left for the answer to a key. */
+/* At most ten frames in any second, two with --slow.  Updates of the engine are spaced
+ * more widely, so that a frame is left to answer a key. */
 static const double window_s = 1.0;
 static const double update_spacing_s = 0.15;
-static const double key_spacing_s = 0.02; /* collects a function key or a paste */
+static const double key_spacing_s = 0.02; /* time to collect a function key or a paste */
 
 enum { STATUS_SIGNAL = 128 };
 
@@ -242,8 +246,8 @@ static double frame_wait(const struct gb_app *app)
     return fmax(last + spacing, oldest + window_s) - now;
 }
 
-/* Milliseconds to sleep: until the next frame may be drawn, until the engine or an image may
- * have an update; -1 (for ever) when only a key can change the screen. */
+/* Milliseconds to sleep: until the next frame may be drawn, or until the engine or an
+ * image may have an update. -1 (forever) if only a key can change the screen. */
 static int wait_timeout_ms(const struct gb_app *app)
 {
     if (app->redraw) {
@@ -269,7 +273,7 @@ static void draw(struct gb_app *app)
     app->redraw = app->input_pending = false;
 }
 
-/* Whether standard error had a new line. */
+/* Has standard error a new line? */
 static bool poll_stderr(struct gb_app *app)
 {
     char line[160];
@@ -297,7 +301,7 @@ static void loop(struct gb_app *app)
     }
 }
 
-/* Where only one pane fits, the plot has the focus at first. */
+/* If only one pane fits, the plot has the focus at first. */
 static void first_focus(struct gb_screen *screen)
 {
     int rows = 0;
@@ -309,7 +313,7 @@ static void first_focus(struct gb_screen *screen)
     }
 }
 
-/* Starts the scene of the preset, or attaches to the run. */
+/* Starts the scene of the preset, or attaches to a run. */
 static bool open_first(struct gb_app *app, struct gb_error *err)
 {
     struct gb_session *session = &app->screen.session;
@@ -339,7 +343,8 @@ static void close_screen(struct gb_app *app)
     }
 }
 
-/* Ends the engines of this process; a run that is left goes on from its checkpoint. */
+/* Ends the engines of this process.  A run that is left can be resumed from its
+ * checkpoint. */
 static void end_session(struct gb_app *app)
 {
     struct gb_session *session = &app->screen.session;

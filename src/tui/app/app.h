@@ -22,25 +22,25 @@
 int gb_app_run(struct gb_preset *preset, const char *folder, const char *attached,
                const struct gb_settings *settings, struct gb_error *err);
 
-/* State of the workbench.  app.c: the event loop; app.c and app.c: events;
- * *_commands.c: functions of the keys. */
+/* State of the workbench. app.c has the event loop, *_commands.c the functions of the
+ * keys. */
 enum { GB_APP_FRAMES = 10, GB_APP_FRAMES_SLOW = 2 };
 
 struct gb_app {
     struct gb_screen screen;
     struct gb_stderr_tail stderr_tail;
     bool leave;
-    bool detach;        /* the run goes on in a process of its own */
+    bool detach;        /* continue the run in a process of its own */
     int status;         /* exit status */
     bool terminal_lost; /* hang-up: no more output to the terminal */
     bool redraw;        /* the screen has changed */
-    bool input_pending; /* key or resize since the last frame: drawn without delay */
+    bool input_pending; /* key or resize since the last frame: draw without delay */
     double frame_s[GB_APP_FRAMES]; /* clock of the last frames, s; ring buffer */
     int frames;                    /* drawn so far */
-    int frames_max;                /* within any second */
+    int frames_max;                /* limit in any second */
 };
 
-/* A key or a character: to the open dialog, the value being edited, or the key table. */
+/* Passes a key or a character to the open dialog, the edited value, or the key table. */
 void gb_app_event(struct gb_app *app, const struct gb_term_event *event);
 
 #endif

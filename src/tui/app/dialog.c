@@ -1,3 +1,8 @@
+/* The dialogs of the workbench: lists with a filter, input lines, questions, result
+ * cards and pictures.  A dialog is a row of struct gb_dialog_type (dialogs.c) with a
+ * form, which draws it and handles its keys.  This file has the forms, the data that
+ * they show (parameters found, curves, choices of a picture), and the functions that
+ * open, answer and close the one dialog that can be open. */
 #include "tui/app/dialog.h"
 
 #include <glib.h>
@@ -23,12 +28,12 @@
 #include "tui/term/paint.h"
 #include "tui/view/views.h"
 
-/* The list of parameters that match what is typed, the nearest first (field_words.h). */
+/* The list of parameters that match the typed text, best match first (field_words.h). */
 
-/* Columns of a wide list; a narrow one leaves the meaning out. */
+/* Columns of a wide list.  A narrow list omits the meaning. */
 enum { FOUND_COLS = 25, VALUE_COLS = 14, WORDS_ROWS = 2, HEAD_ROWS = 2 };
 
-/* Nearest first; of the same rank as in the field table. */
+/* Rank of a field; fields of equal rank stay in the order of the field table. */
 static int rank_field(void *data, int item, char **words)
 {
     struct gb_param_finder *finder = data;
@@ -131,13 +136,13 @@ int gb_dialog_found(const struct gb_param_finder *finder)
 }
 
 enum { SIGNS, SHAPE, NAME, CELL, DENSITY, DIFFERENCE, COLUMNS };
-enum { FOOT_ROWS = 2 }; /* what the signs mean */
+enum { FOOT_ROWS = 2 }; /* explanation of the signs */
 
 static const char curve_signs[] =
     "* pinned: stays, also with m; - hidden. ~ within, ! beyond two standard deviations. "
     "D takes a curve off the plot, its files stay.";
 
-/* pressure_pa: typed by the user; 0: none, the usual one. */
+/* pressure_pa: typed by the user; 0: use the usual one. */
 static void curve_list_init(struct gb_curve_list *list, const struct gb_session *session,
                             double pressure_pa)
 {
@@ -145,7 +150,7 @@ static void curve_list_init(struct gb_curve_list *list, const struct gb_session 
                                        gb_pressure_rows_usual(session, pressure_pa)};
 }
 
-/* The run first, then the newest curve. */
+/* Number of lines: the run, then the previous curves from the newest. */
 static int count_lines(const struct gb_session *session)
 {
     return session->previous_count + (session->runner != NULL);
@@ -173,7 +178,7 @@ int gb_dialog_curve(struct gb_curve_list *list, const struct gb_session *session
     return index < session->previous_count ? index : GB_CURVE_LIST_RUN;
 }
 
-/* Begins to type the name in focus. */
+/* Starts editing the name of the focused curve. */
 static void curve_list_rename(struct gb_curve_list *list, struct gb_session *session)
 {
     const int index = gb_dialog_curve(list, session);
@@ -183,7 +188,7 @@ static void curve_list_rename(struct gb_curve_list *list, struct gb_session *ses
     }
 }
 
-/* Takes an event while a name is typed; false: nothing is typed, or it ends. */
+/* Handles an event while a name is typed.  False: nothing is typed, or editing ends. */
 static bool curve_list_type(struct gb_curve_list *list, const struct gb_term_event *event)
 {
     if (list->naming && event->kind == GB_TERM_KEY && event->code == GB_KEY_ESCAPE) {
@@ -227,7 +232,7 @@ static void write_cell(const struct gb_pressure_row *row, char *text, size_t siz
              (long long)(quick ? small.count : row->params->count));
 }
 
-/* What a row is written from. */
+/* Data from which a row is written. */
 struct source {
     const struct gb_curve_list *list;
     const struct gb_session *session;
@@ -302,19 +307,19 @@ static void curve_list_draw(struct gb_curve_list *list, const struct gb_session 
                   curve_signs);
 }
 
-/* Dialogs: one form for each kind (list, line, question, cards, picture), and the dialog that
- * is open. */
+/* The form of each kind of dialog (list, line, question, cards, picture), and the
+ * dialog that is open. */
 
 enum { NAME_COLS = 9, CHOICES_MOST = 6 };
 
-/* A choice: what the screen says, and the option of the command; NULL: none. */
+/* A choice: its text on the screen and the option of the command; NULL: none. */
 struct choice {
     const char *text, *word;
 };
 
 struct row {
     const char *name;
-    struct choice choice[CHOICES_MOST]; /* the first one is the command's own */
+    struct choice choice[CHOICES_MOST]; /* the first one is the default of the command */
 };
 
 static const struct row choice_rows[GB_PICTURE_FORM_CHOICES] = {
@@ -340,7 +345,7 @@ static const struct row choice_rows[GB_PICTURE_FORM_CHOICES] = {
                                {"top", "--view=top"}}},
 };
 
-/* Colours of forces alone. */
+/* Colours that apply to forces only. */
 static const struct row force_colours = {
     "colour", {{"compressive or tensile", NULL}, {"bridged or not", "--color=bridged"}}};
 
@@ -370,7 +375,7 @@ static void picture_form_init(struct gb_picture_form *form, const char *path)
     gb_prompt_set(&form->file, path);
 }
 
-/* The line that a row edits; NULL: a row of choices. */
+/* The input line of a row; NULL for a row of choices. */
 static struct gb_prompt *line_of(struct gb_picture_form *form, int row)
 {
     return row == GB_PICTURE_FORM_WIDTH  ? &form->width
@@ -387,7 +392,7 @@ static void draw_width(struct gb_prompt *width, const struct gb_paint *paint, in
                   empty ? "for a screen; 8cm, elsevier: in print" : text);
 }
 
-/* The end of a long path says more than its beginning. */
+/* Draws the end of a long path, which is more informative than its beginning. */
 static void draw_file(struct gb_prompt *file, const struct gb_paint *paint, int room)
 {
     char text[64];
@@ -427,13 +432,13 @@ static void change(struct gb_picture_form *form, int by)
     const int row = form->row;
     const int count = count_of(row_at(form, row));
     form->choice[row] = (form->choice[row] + count + by) % count;
-    if (row == GB_PICTURE_FORM_SHOW) { /* its colours are others */
+    if (row == GB_PICTURE_FORM_SHOW) { /* other colours apply */
         form->choice[GB_PICTURE_FORM_COLOUR] = 0;
     }
 }
 
-/* Takes a key: up and down go to a row, left and right change its choice, the rows of the width
- * and the file take text.  False: another key, as Enter and Esc. */
+/* Handles a key.  Up and down move to a row, left and right change its choice, and the
+ * rows of the width and the file take text.  False: another key, such as Enter or Esc. */
 static bool picture_form_handle(struct gb_picture_form *form,
                                 const struct gb_term_event *event, enum gb_action action)
 {
@@ -493,7 +498,7 @@ static struct gb_paint dialog_box(const struct gb_paint *screen, int rows, int c
     return paint;
 }
 
-/* What is inside of its border. */
+/* The area inside the border of a box. */
 static struct gb_paint dialog_box_inside(const struct gb_paint *paint)
 {
     const struct gb_rect rect = {paint->rect.row + 1, paint->rect.col + 2,
@@ -545,8 +550,8 @@ static enum gb_style style_of(enum gb_result_role role)
                                      : GB_STYLE_PLAIN;
 }
 
-/* Draws the lines from the first one shown on, warnings behind a "!"; returns the rows
- * that all lines need. */
+/* Draws the lines from the first visible one, with "!" before warnings.  Returns the
+ * number of rows that all lines need. */
 static int draw_lines(const struct gb_paint *paint, const struct gb_result_card *card,
                       int first, int rows)
 {
@@ -568,7 +573,7 @@ static int draw_lines(const struct gb_paint *paint, const struct gb_result_card 
     return row + first;
 }
 
-/* What stands below the lines: path, note of the last key, keys. */
+/* Text below the lines: path, note about the last key, keys. */
 struct foot {
     const char *text[3];
     enum gb_style style[3];
@@ -651,7 +656,7 @@ const struct gb_dialog_form gb_dialog_forms_cards = {draw_card, NULL, go};
 
 /* --- picture ------------------------------------------------------------------------ */
 
-/* The cells of the picture stay empty: its pixels are sent behind the frame. */
+/* Leaves the cells of the picture empty: its pixels are sent after the frame. */
 static void result_form_draw_picture(struct gb_dialog *dialog,
                                      const struct gb_paint *screen)
 {
@@ -689,7 +694,7 @@ enum {
     LEGS_ROWS = 40,
     LEGS_COLS = 110,
     LEGS_PAGE = 5,
-    FAR = 100000,    /* beyond any list */
+    FAR = 100000,    /* more than any list */
     PROMPT_ROWS = 5, /* without the note */
     PROMPT_COLS = 64,
     NOTE_ROWS = 3
@@ -706,7 +711,7 @@ static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *pai
     }
 }
 
-/* Rows of the note in a box of PROMPT_COLS columns, at most `most`. */
+/* Rows of the note in a box of PROMPT_COLS columns, limited to `most`. */
 static int note_rows(const struct gb_dialog *dialog, const struct gb_paint *screen,
                      int most)
 {
@@ -715,7 +720,7 @@ static int note_rows(const struct gb_dialog *dialog, const struct gb_paint *scre
     return gb_paint_wrap_rows(&probe, most, dialog->note);
 }
 
-/* A note on the last answer no longer applies to an edited one. */
+/* Clears the note about the last answer when the answer is edited. */
 static bool clear_note(struct gb_dialog *dialog, bool edited)
 {
     if (edited) {
@@ -724,7 +729,7 @@ static bool clear_note(struct gb_dialog *dialog, bool edited)
     return edited;
 }
 
-/* What was copied, in place of the title. */
+/* The note about a copy, or else the title. */
 static const char *told_or_title(const struct gb_dialog *dialog)
 {
     return dialog->note[0] != '\0' ? dialog->note : dialog->type->title;
@@ -772,7 +777,7 @@ static int list_step(enum gb_action action, int page)
     }
 }
 
-/* No upper limit here: drawing limits the position. */
+/* Scrolls without an upper limit; drawing limits the position. */
 static enum gb_dialog_result scroll(struct gb_dialog *dialog, int code)
 {
     dialog->focus = MAX(dialog->focus + list_step(gb_keys_action(code), dialog->page), 0);
@@ -867,7 +872,7 @@ const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_preset
 
 /* --- search of a parameter --------------------------------------------------------- */
 
-/* The message line stays: it tells of results that come while something is typed. */
+/* Leaves the message line visible, for results that arrive while the user types. */
 static void draw_finder(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int rows = MIN(FINDER_ROWS, screen->rect.rows - 2 * BELOW_ROWS);
@@ -979,8 +984,8 @@ const struct gb_dialog_form gb_dialog_forms_picture = {draw_picture, edit_pictur
 
 /* --- command ---------------------------------------------------------------------- */
 
-/* No frame at the sides, so that the mouse can select the text: the lines end in
- * backslashes and are one shell command. */
+/* Draws the command without side borders, so that the mouse can select it.  The lines
+ * end in backslashes and form one shell command. */
 static void draw_command(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     char **lines = g_strsplit(dialog->text, "\n", -1);
@@ -1011,7 +1016,7 @@ const struct gb_dialog_form gb_dialog_forms_command = {draw_command, NULL, stay_
 
 /* --- question --------------------------------------------------------------------- */
 
-/* The answers in one row. */
+/* Draws the answers in one row. */
 static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *paint,
                          int row)
 {
@@ -1026,7 +1031,7 @@ static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *
     }
 }
 
-/* The height follows from the wrapped question. */
+/* Draws the question; the height depends on the wrapped text. */
 static void draw_question(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int rows = note_rows(dialog, screen, screen->rect.rows - 5);
@@ -1127,7 +1132,7 @@ void gb_dialog_show_results(struct gb_dialog *dialog, const struct gb_dialog_typ
 void gb_dialog_show_pixels(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                            const struct gb_png_pixels *picture, const char *path)
 {
-    char *text = g_strdup(path); /* of the card that is closed */
+    char *text = g_strdup(path); /* the card owns it and is closed */
     gb_dialog_close(dialog);
     dialog->type = type;
     dialog->pixels = *picture;
@@ -1167,7 +1172,7 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
     }
 }
 
-/* Esc, q, and the key that opened the dialog. */
+/* Does the key close the dialog: Esc, q, or the key that opened it? */
 static bool closes(const struct gb_dialog *dialog, int code)
 {
     struct gb_key key;

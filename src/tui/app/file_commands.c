@@ -1,3 +1,7 @@
+/* Commands of the run and of files.  The first part starts runs, quick cells and
+ * what-ifs and asks before expensive runs.  The second part opens and saves presets and
+ * materials, loads measured data, makes pictures and reports as child commands, and
+ * shows the shell command of the run. */
 #include <glib.h>
 #include <limits.h>
 #include <stdio.h>
@@ -21,14 +25,14 @@
 
 enum { QUESTION = 400 };
 
-/* A refusal stays on the message line until the next key, even if a run starts. */
+/* A rejection stays on the message line until the next key, even if a run starts. */
 static bool is_refusal(const struct gb_message *message)
 {
     return message->text[0] != '\0' &&
            (message->style == GB_STYLE_WARN || message->style == GB_STYLE_BAD);
 }
 
-/* The next run takes the changes that a what-if or a preset has left. */
+/* Reports that the next run uses the changes left by a what-if or a preset. */
 static void tell_changes(struct gb_app *app)
 {
     const char *changes = gb_session_params(&app->screen.session)->changes;
@@ -72,7 +76,7 @@ static void start_run(struct gb_app *app)
     }
 }
 
-/* An expensive run is started after a confirmation only. */
+/* Starts the run; an expensive one only after a confirmation. */
 static void start_or_ask(struct gb_app *app)
 {
     char question[QUESTION];
@@ -158,8 +162,8 @@ void gb_file_commands_auto_start(struct gb_app *app, const struct gb_key *key)
                                  : "the full cell waits for r");
 }
 
-/* Prefills the dialog with the focused parameter. */
-/* Semicolons separate assignments here: legs of a path are separated by `then`. */
+/* Replaces semicolons, which separate assignments here; legs of a path are separated by
+ * `then`. */
 static void separate_legs(char *text, size_t size)
 {
     char **legs = gb_path_parse_split(text);
@@ -210,12 +214,12 @@ void gb_file_commands_accept_what_if(struct gb_app *app)
                              "continues with these values from the next loading point");
 }
 
-/* Commands of files: presets, materials, measured data, pictures, reports. */
+/* Presets, materials, measured data, pictures, reports. */
 
 /* The user's presets. */
 
-/* Suggested name for saving a preset: its own for a preset of the user, otherwise with
- * the prefix "my-", so that an installed preset is not hidden by accident.  g_free. */
+/* Suggested name for saving a preset.  A preset of the user keeps its name; others get
+ * the prefix "my-", so that an installed preset is not hidden by accident. g_free. */
 static char *user_presets_suggest(const struct gb_preset *preset)
 {
     const char *path = gb_preset_path(preset);
@@ -229,8 +233,8 @@ static char *user_presets_suggest(const struct gb_preset *preset)
     return name;
 }
 
-/* Path of a name in the folder of the user's presets, which is created, or the name
- * itself if it has a slash.  NULL and GB_ERR_INPUT for an invalid name.  g_free. */
+/* Path of a name in the folder of user presets, which is created if missing, or the
+ * name itself if it has a slash.  NULL and GB_ERR_INPUT for an invalid name. g_free. */
 static char *user_presets_file(const char *name, struct gb_error *err)
 {
     if (strchr(name, '/') != NULL) {
@@ -251,8 +255,6 @@ static char *user_presets_file(const char *name, struct gb_error *err)
     return path;
 }
 
-/* Presets, materials, measured data, pictures, reports and the shell command of the run. */
-
 void gb_file_commands_save(struct gb_app *app, const struct gb_key *key)
 {
     char *name = user_presets_suggest(app->screen.session.preset);
@@ -261,7 +263,7 @@ void gb_file_commands_save(struct gb_app *app, const struct gb_key *key)
     g_free(name);
 }
 
-/* An existing file is replaced when Enter is pressed twice. */
+/* An existing file is replaced if Enter is pressed twice. */
 void gb_file_commands_accept_save(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -316,7 +318,7 @@ void gb_file_commands_material(struct gb_app *app, const struct gb_key *key)
                            gb_session_params(&app->screen.session));
 }
 
-/* The quick cell follows, as after any other change of parameters. */
+/* Applies the material and starts the quick cell, as any change of parameters does. */
 void gb_file_commands_accept_material(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -340,7 +342,7 @@ void gb_file_commands_data(struct gb_app *app, const struct gb_key *key)
                    measured != NULL ? measured->path : "");
 }
 
-/* The question of a file: a line of its own, with the first answer in it. */
+/* Asks how to read a file: an input line with the first answer in it. */
 static void ask_reading(struct gb_dialog *dialog, const char *path,
                         const struct gb_lab_report *report)
 {
@@ -350,7 +352,8 @@ static void ask_reading(struct gb_dialog *dialog, const char *path,
     gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING, "%s", report->question);
 }
 
-/* Says how the file was read, a clause each: the pane shows short lines in full. */
+/* Adds notes on how the file was read, one clause each, because the pane shows short
+ * lines in full. */
 static void note_data(struct gb_session *session, const char *path, const char *told)
 {
     if (*path == '\0') {
@@ -372,7 +375,7 @@ static void note_data(struct gb_session *session, const char *path, const char *
     }
 }
 
-/* Switches to the view that shows the data. */
+/* Loads the data and switches to the view that shows them. */
 static void load_data(struct gb_app *app, const char *path, const char *reading)
 {
     struct gb_screen *screen = &app->screen;
@@ -414,7 +417,7 @@ void gb_file_commands_accept_reading(struct gb_app *app)
     g_free(reading);
 }
 
-/* Directory of the run; NULL with a message: it is not stored. */
+/* Directory of the run; NULL, with a message, if it is not stored. */
 static const char *run_directory(struct gb_app *app)
 {
     const struct gb_session *session = &app->screen.session;
@@ -426,7 +429,7 @@ static const char *run_directory(struct gb_app *app)
     return directory;
 }
 
-/* directory, middle, first free number, end; g_free. */
+/* A free path: directory, middle, number, end; g_free. */
 static char *free_path(const char *directory, const char *middle, const char *end)
 {
     char *path = NULL;
@@ -437,7 +440,7 @@ static char *free_path(const char *directory, const char *middle, const char *en
     return path;
 }
 
-/* Starts a child command that makes the file `path`. */
+/* Starts a child command that creates the file `path`. */
 static void make(struct gb_app *app, const char *name, const char *path,
                  const char *const *words, const char *started)
 {

@@ -14,11 +14,12 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/view/views.h"
 
-/* Commands of the jobs: replicas, calibration, moduli, chart, stability, and their results. */
+/* Commands of background jobs: replicas, calibration, moduli, chart, stability, and the
+ * cards with their results. */
 
 /* Results of the jobs in the background, as cards. */
 
-/* The equations fitted to what is shown, with the intervals that the view has. */
+/* Fits equations to the curve on display, with the intervals of its view. */
 static void make_fit(struct gb_session *session)
 {
     const struct gb_session_shown shown = gb_session_shown(session);
@@ -30,7 +31,7 @@ static void make_fit(struct gb_session *session)
     }
 }
 
-/* The card of the view that is shown becomes the newest one. */
+/* Shows the results.  The card of the present view becomes the newest one. */
 void gb_job_commands_result_show(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_session *session = &app->screen.session;
@@ -49,7 +50,7 @@ void gb_job_commands_result_show(struct gb_app *app, const struct gb_key *key)
     gb_dialog_show_results(&app->screen.dialog, &gb_dialogs_results, session);
 }
 
-/* Nothing that is typed is interrupted. */
+/* Shows a new result unless the user is typing. */
 void gb_job_commands_result_follow(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
@@ -103,7 +104,8 @@ void gb_job_commands_result_accept(struct gb_app *app)
     g_free(told);
 }
 
-/* In the terminal where it has pixels; nothing else is started for it. */
+/* Opens the picture of a result in the terminal if it can show pixels; starts no other
+ * program. */
 static void open_result(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -147,7 +149,7 @@ static bool is_own(int code)
     }
 }
 
-/* A card comes by itself: keys that it does not have act as without it. */
+/* Handles keys of a card that appeared by itself: other keys act as without the card. */
 bool gb_job_commands_result_press(struct gb_app *app, const struct gb_term_event *event)
 {
     if (event->kind == GB_TERM_TEXT && event->code == 'o') {
@@ -162,14 +164,16 @@ bool gb_job_commands_result_press(struct gb_app *app, const struct gb_term_event
     return true;
 }
 
-/* Accuracy against cost of this scene, measured by `greenbody chart` as a child process. */
+/* Accuracy against cost of this scene, measured by `greenbody chart` as a child
+ * process. */
 
-/* As many cells as the command takes by itself; a quarter of an hour of one core. */
+/* Default answer: as many cells as the command takes, a quarter of an hour on one core.
+ */
 static const char default_answer[] = "4 15min";
 
 enum { CELLS_MIN = 2, CELLS_MAX = 1000, DESCRIPTION = 160 };
 
-/* job_commands.c: stability of the methods of the scene. */
+/* Opens the dialog for the stability of the methods of the scene. */
 static void job_commands_stability_open(struct gb_app *app)
 {
     struct gb_error err = {0};
@@ -200,10 +204,10 @@ void gb_job_commands_chart_open(struct gb_app *app, const struct gb_key *key)
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_chart, default_answer);
 }
 
-/* What was typed: cells, CPU time, pressures. */
+/* The typed answer: cells, CPU time, pressures. */
 struct answer {
     char **parts;
-    char *pressures; /* NULL: those of the scene */
+    char *pressures; /* NULL: the pressures of the scene */
 };
 
 static bool parse(struct answer *answer, const char *text, struct gb_error *err)
@@ -232,7 +236,8 @@ static bool parse(struct answer *answer, const char *text, struct gb_error *err)
                         answer->parts[1]);
 }
 
-/* The parameters shown as a preset file DIRECTORY/scene.ini (g_free). */
+/* Writes the parameters on display to a preset DIRECTORY/scene.ini and returns its path
+ * (g_free). */
 static char *write_scene(struct gb_session *session, const char *directory,
                          struct gb_error *err)
 {
@@ -255,7 +260,7 @@ static char *write_scene(struct gb_session *session, const char *directory,
     return path;
 }
 
-/* A new directory beside those of the runs: "default-replicas-1".  g_free. */
+/* A new directory next to the run directories: "default-replicas-1". g_free. */
 static char *new_directory(const struct gb_session *session, const char *name)
 {
     const char *path = gb_preset_path(session->preset);
@@ -274,11 +279,11 @@ static char *new_directory(const struct gb_session *session, const char *name)
     return directory;
 }
 
-/* Indices of words of the child command. */
+/* Indices in the words of the child command. */
 enum { SCENE = 1, DIRECTORY = 3 };
 
-/* Starts a command with the scene and a new directory in words[1] and words[3].  True: the
- * dialog is closed; false: it shows the reason. */
+/* Starts a command with the scene and a new directory in words[1] and words[3].  True:
+ * the dialog is closed.  False: the dialog shows the reason. */
 static bool job_commands_start(struct gb_app *app, const char *name,
                                enum gb_child_command_kind kind, const char **words)
 {
@@ -341,7 +346,7 @@ void gb_job_commands_chart_accept(struct gb_app *app)
     g_strfreev(answer.parts);
 }
 
-/* The method under the cursor, or its time step, becomes that of the parameters. */
+/* Sets the method under the cursor, or its time step, in the parameters. */
 static void job_commands_stability_apply(struct gb_screen *screen, size_t row)
 {
     struct gb_session *session = &screen->session;
@@ -392,8 +397,8 @@ void gb_job_commands_chart_apply(struct gb_screen *screen)
     }
 }
 
-/* Stability of the methods of this scene, measured by `greenbody stability` as a child
- * process; key and cursor are those of the chart. */
+/* Stability of the methods of this scene, measured by a child command `greenbody
+ * stability`.  Key and cursor are the same as for the chart. */
 
 static void start(struct gb_app *app, char *points)
 {
@@ -428,10 +433,11 @@ void gb_job_commands_stability_accept(struct gb_app *app)
     g_free(answer);
 }
 
-/* Replicas of the scene shown, its calibration to the measured data, moduli of the run: the
- * commands `sweep`, `calibrate` and `moduli` as child processes. */
+/* Replicas of the scene on display, its calibration to the measured data, and moduli of
+ * the run: child commands `sweep`, `calibrate` and `moduli`. */
 
-/* P1 averages ten cells; a standard error of 0.002 separates two powders of one study. */
+/* Default answer.  P1 averages ten cells; a standard error of 0.002 distinguishes two
+ * powders of a study. */
 static const char default_replicas[] = "10 0.002@100MPa";
 static const char default_keys[] = "mu,alpha";
 
@@ -454,7 +460,7 @@ void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key)
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_calibrate, default_keys);
 }
 
-/* The view of the moduli opens; where it is shown, a second key stops the measurement. */
+/* Opens the view of the moduli.  If it is open, stops the measurement. */
 void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_session *session = &app->screen.session;
@@ -475,7 +481,7 @@ void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key)
                              "measuring the stored states; Y again stops");
 }
 
-/* "0.002@100MPa"; NULL or blank: none. */
+/* Reads "0.002@100MPa"; NULL or blank: no target. */
 static bool is_target(const char *text, struct gb_sweep_target *target,
                       struct gb_error *err)
 {

@@ -51,7 +51,7 @@ void gb_view_commands_ranges(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_accept_ranges(struct gb_app *app);
 void gb_view_commands_accept_pressure(struct gb_app *app);
 
-/* The table of densities, columns separated by tabs; g_free. */
+/* The table of densities with tabs between columns; g_free. */
 char *gb_view_commands_densities_text(struct gb_app *app);
 
 /* pane_commands.c: the clipboard. */
@@ -68,10 +68,11 @@ void gb_file_commands_drop_changes(struct gb_app *app, const struct gb_key *key)
 void gb_file_commands_accept_what_if(struct gb_app *app);
 void gb_file_commands_accept_cost(struct gb_app *app);
 void gb_file_commands_decline_cost(struct gb_app *app);
-/* Starts an opened scene: the quick cell first, except for scenes that are fast
- * themselves. */
+/* Starts a scene that was opened: the quick cell first, unless the scene itself is
+ * fast. */
 void gb_file_commands_start_scene(struct gb_app *app);
-/* Starts the full cell when its quick cell has finished; an expensive one waits for r. */
+/* Starts the full cell after its quick cell has finished.  An expensive one waits for
+ * r. */
 void gb_file_commands_follow_quick(struct gb_app *app);
 
 /* file_commands.c: presets, materials, measured data, pictures, reports. */
@@ -83,7 +84,7 @@ void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_accept_picture(struct gb_app *app);
 void gb_file_commands_report(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key);
-/* That command in one line; g_free. */
+/* The shell command of the run on one line; g_free. */
 char *gb_file_commands_shell_text(struct gb_app *app);
 void gb_file_commands_accept_save(struct gb_app *app);
 void gb_file_commands_accept_open(struct gb_app *app);
@@ -101,7 +102,7 @@ void gb_job_commands_accept_calibrate(struct gb_app *app);
 /* job_commands.c: accuracy against cost; in its view, stability. */
 void gb_job_commands_chart_open(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_chart_accept(struct gb_app *app);
-/* The setting under the cursor becomes that of the parameters. */
+/* Sets the setting under the cursor in the parameters. */
 void gb_job_commands_chart_apply(struct gb_screen *screen);
 
 void gb_job_commands_stability_accept(struct gb_app *app);
@@ -109,10 +110,10 @@ void gb_job_commands_stability_accept(struct gb_app *app);
 /* job_commands.c: results of the jobs. */
 void gb_job_commands_result_show(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_result_accept(struct gb_app *app);
-/* The card as copied; g_free. */
+/* The text of the card for the clipboard; g_free. */
 char *gb_job_commands_result_text(struct gb_app *app);
 bool gb_job_commands_result_press(struct gb_app *app, const struct gb_term_event *event);
-/* Shows the result of a job that has ended. */
+/* Shows the result of a completed job. */
 void gb_job_commands_result_follow(struct gb_app *app);
 
 /* pane_commands.c: mouse, theme, help, quitting. */
@@ -123,7 +124,7 @@ void gb_pane_commands_help(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_quit(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_accept_quit(struct gb_app *app);
 bool gb_pane_commands_press_quit(struct gb_app *app, const struct gb_term_event *event);
-/* Opens the question before quitting with a live run. */
+/* Asks before quitting with a live run. */
 void gb_pane_commands_ask_quit(struct gb_app *app);
 void gb_pane_commands_leave(struct gb_app *app, int status);
 /* Sets the text of the message line. */

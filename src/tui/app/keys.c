@@ -1,3 +1,7 @@
+/* The key table of the workbench, with the footer and the help.  Each key is a row:
+ * codes, name, help text, scope and command function.  Rows for the views are inserted
+ * between the two parts of the table.  The help lists the keys in groups and the
+ * glossary, filtered by the words that the user types. */
 #include "tui/app/keys.h"
 
 #include <glib.h>
@@ -214,7 +218,7 @@ static const struct gb_key before_views[] = {
      GB_ACTION_NONE},
 };
 
-/* The keys of the views come between the two tables: see row_of_view. */
+/* The keys of the views are inserted between the two tables; see row_of_view. */
 static const struct gb_key after_views[] = {
     {{'v'},
      "v",
@@ -550,7 +554,8 @@ const char *gb_keys_heading(size_t index)
     return NULL;
 }
 
-/* Names of keys by pane, the most useful ones first; help and quit follow. */
+/* Names of keys for the footer of each pane, the most useful first.  Help and quit are
+ * added. */
 static const char *const footers[GB_PANES][GB_KEYS_FOOTER] = {
     [GB_PANE_PARAMS] = {"Tab n", "Enter i", "/", "+ =", "u <", "r", "p", "v", "d", "o",
                         "w", "y", "z"},
@@ -583,8 +588,8 @@ enum gb_action gb_keys_action(int code)
     return gb_keys_find(code, GB_KEY_EVERYWHERE, &key) ? key.action : GB_ACTION_NONE;
 }
 
-/* The help: the keys in groups and the glossary (docs/glossary.md), as far as they contain
- * the words that are typed. */
+/* The help: the keys in groups and the glossary (docs/glossary.md), filtered by the
+ * typed words. */
 
 enum { KEY_COLS = 10, INDENT = 2, HEAD_ROWS = 2 };
 
@@ -598,18 +603,18 @@ const struct gb_help_word *gb_keys_glossary(size_t *count)
     return glossary;
 }
 
-/* A line of the list, with a name before the text or above it. */
+/* A line of the list, with a name before or above the text. */
 struct line {
     char *name, *text; /* owned; NULL: none */
     enum gb_style style;
-    int col; /* of the text */
+    int col; /* first column of the text */
 };
 
 struct lines {
     GPtrArray *line;
     const struct gb_paint *paint;
     char **wanted;       /* words of the filter, lower case */
-    const char *heading; /* that comes before the next line; NULL: none */
+    const char *heading; /* heading before the next line; NULL: none */
 };
 
 static void free_line(void *data)
@@ -628,7 +633,7 @@ static void add(struct lines *lines, const char *name, const char *text,
     g_ptr_array_add(lines->line, line);
 }
 
-/* A heading is added when something stands below it. */
+/* Adds a heading only if lines follow it. */
 static void add_heading(struct lines *lines)
 {
     if (lines->heading != NULL) {
@@ -640,7 +645,7 @@ static void add_heading(struct lines *lines)
     }
 }
 
-/* The text broken at blanks from column `col` on; the name stands in the first line. */
+/* Adds the text, wrapped at blanks from column `col`; the name is on the first line. */
 static void add_wrapped(struct lines *lines, const char *name, const char *text, int col)
 {
     const int room = MAX(lines->paint->rect.cols - col, 8);
@@ -661,7 +666,7 @@ static void add_wrapped(struct lines *lines, const char *name, const char *text,
     g_strfreev(word);
 }
 
-/* All words of the filter stand in the texts. */
+/* Do the texts contain all words of the filter? */
 static bool wanted(const struct lines *lines, const char *name, const char *text,
                    const char *heading)
 {
@@ -720,7 +725,7 @@ static void write_line(void *data, int item, struct gb_list_box_line *out)
     const struct lines *lines = data;
     const struct line *line = g_ptr_array_index(lines->line, (guint)item);
     out->style = line->style;
-    if (line->col < KEY_COLS) { /* from the left edge, or indented */
+    if (line->col < KEY_COLS) { /* without a name in the first column */
         out->whole = g_strdup_printf("%*s%s", line->col, "", line->text);
     } else {
         out->cell[0] = g_strdup(line->name);

@@ -12,7 +12,7 @@ struct gb_app;
 
 enum { GB_KEYS_PER_ROW = 4, GB_KEY_ESCAPE = 27 };
 
-/* Panes in whose focus a key is valid, one bit each. */
+/* Where a key is valid, one bit each: focused panes and other situations. */
 enum gb_key_scope {
     GB_KEY_PARAMS = 1 << GB_PANE_PARAMS,
     GB_KEY_PLOT = 1 << GB_PANE_PLOT,
@@ -28,55 +28,55 @@ enum gb_key_scope {
     GB_KEY_EVERYWHERE = GB_KEY_ALWAYS | GB_KEY_LEGS | GB_KEY_COPIED | GB_KEY_CURVES
 };
 
-/* One row per key: dispatch, footer, help page, `greenbody --keys` and the manual page
- * follow from it.  A new key is a command function and a row. */
+/* One row per key.  Dispatch, footer, help page, `greenbody --keys` and the manual page
+ * use it.  A new key needs a command function and a row. */
 struct gb_key {
     int code[GB_KEYS_PER_ROW]; /* curses key codes; 0 after the last */
     const char *name;          /* as shown: "p", "Tab" */
-    const char *brief;         /* in the footers; NULL: in none */
+    const char *brief;         /* text in footers; NULL: in no footer */
     const char *help;
     int scope; /* bits of enum gb_key_scope */
     void (*command)(struct gb_app *app, const struct gb_key *key);
-    enum gb_action action; /* of a navigation key */
+    enum gb_action action; /* action of a navigation key */
 };
 
 /* Number of rows, including the keys of the views. */
 size_t gb_keys_count(void);
 struct gb_key gb_keys_at(size_t index);
 
-/* Heading of the group that begins with this row; NULL: none begins. */
+/* Heading of the group that begins at this row; NULL: no group begins here. */
 const char *gb_keys_heading(size_t index);
 
-/* Names of the keys in the footer of a pane, as far as they fit: at most GB_KEYS_FOOTER,
- * NULL after the last. */
+/* Names of the keys in the footer of a pane, at most GB_KEYS_FOOTER, NULL after the
+ * last. */
 enum { GB_KEYS_FOOTER = 16 };
 const char *const *gb_keys_footer(enum gb_pane pane);
 
-/* The row with this name; false: none. */
+/* Finds the row with this name; false: none. */
 bool gb_keys_named(const char *name, struct gb_key *key);
 
-/* Row of a curses key code that has one of the bits of scope; false: none.  Rows of
- * different scopes may share a code. */
+/* Finds the row of a curses key code whose scope has one of these bits; false: none.
+ * Rows with different scopes may share a code. */
 bool gb_keys_find(int code, int scope, struct gb_key *key);
 
 /* Navigation action of a curses key code. */
 enum gb_action gb_keys_action(int code);
 
-/* The keys in groups and the glossary (docs/glossary.md), as far as they contain the words
- * that are typed. */
+/* The help: keys in groups and the glossary (docs/glossary.md), filtered by the typed
+ * words. */
 struct gb_help_list {
     struct gb_list_box box;
 };
 
 void gb_keys_help_init(struct gb_help_list *list);
 
-/* Typing filters; false: another key. */
+/* Edits the filter or scrolls; false: another key. */
 bool gb_keys_help_handle(struct gb_help_list *list, const struct gb_term_event *event);
 
 /* Draws the lines that are in view. */
 void gb_keys_help_draw(struct gb_help_list *list, const struct gb_paint *paint);
 
-/* Entries of the glossary; the word is NULL in a heading. */
+/* Entries of the glossary; word = NULL: a heading. */
 struct gb_help_word {
     const char *word, *meaning;
 };

@@ -23,22 +23,21 @@ enum {
     GB_LAYOUT_FULL_COLS = 80
 };
 
-/* The first row of a pane is its title.  In full and wide layouts the last column of the
- * parameters is the separator; in wide layouts the last column of the plot is one,
- * too. */
+/* The first row of a pane is its title.  In full and wide layouts the last column of
+ * the parameters is a separator; in wide layouts also the last column of the plot. */
 struct gb_layout {
     enum gb_layout_kind kind;
     struct gb_rect header, pane[GB_PANES], message, footer;
 };
 
-/* Computes all rectangles.  Pure: the result depends on size and focus only. */
+/* Computes all rectangles from the size and the focus. */
 void gb_layout_make(struct gb_layout *layout, int rows, int cols, enum gb_pane focus);
 
-/* Gives the focused pane all that lies between header and message; too small screens stay
- * as they are. */
+/* Gives the focused pane the whole area between header and message.  Screens that are
+ * too small do not change. */
 void gb_layout_zoom(struct gb_layout *layout, enum gb_pane focus);
 
-/* Whether a pane is on the screen. */
+/* Is a pane on the screen? */
 bool gb_layout_shows(const struct gb_layout *layout, enum gb_pane pane);
 
 #endif

@@ -1,3 +1,7 @@
+/* The editor of loading.path.  The first part plans a path from its text: pressures,
+ * stresses and strains at the ends of the legs, as far as they do not depend on the
+ * packing, and a sketch of them.  The second part keeps the legs as texts with their
+ * errors, describes a leg in words, and handles keys and drawing. */
 #include "tui/app/leg_editor.h"
 
 #include <glib.h>
@@ -11,11 +15,11 @@
 #include "tui/app/keys.h"
 #include "tui/panel/plot.h"
 
-/* Reversals of a cycle that are drawn. */
+/* Reversals of a cycle in the sketch; steps of the search for an end. */
 enum { REVERSALS = 4, HALVINGS = 60, DOUBLINGS = 60 };
 
 struct state {
-    double stress[GB_PATH_COMPONENTS]; /* of the sign of struct gb_path, Pa */
+    double stress[GB_PATH_COMPONENTS]; /* sign as in struct gb_path, Pa */
     int dimension;
 };
 
@@ -41,7 +45,7 @@ static bool led(const struct gb_leg *leg, int k)
     return leg->component[k].control == GB_LEG_STRAIN && leg->component[k].value != 0.0;
 }
 
-/* All axes are strained alike and nothing else moves. */
+/* Are all axes strained equally, and nothing else moved? */
 static bool isotropic(const struct gb_leg *leg, int dimension)
 {
     for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
@@ -54,8 +58,8 @@ static bool isotropic(const struct gb_leg *leg, int dimension)
     return true;
 }
 
-/* Stresses of a leg from their values at its beginning, where the stress of the leading
- * component is t. */
+/* Sets the stresses of a leg from their values at its start, when the stress of the
+ * leading component is t. */
 static void set_stresses(const struct gb_leg *leg, const struct state *from, double t,
                          struct state *to)
 {
@@ -66,7 +70,7 @@ static void set_stresses(const struct gb_leg *leg, const struct state *from, dou
                         : still                                    ? 0.0
                                                                    : (double)NAN;
     }
-    /* twice: a share may be one of a component that comes later */
+    /* twice, because a ratio may refer to a later component */
     for (int pass = 0; pass < 2; pass++) {
         for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
             const struct gb_leg_component *c = &leg->component[k];
@@ -120,15 +124,15 @@ static double value_at(const struct gb_leg *leg, const struct gb_leg_end *end,
     return end_value(leg, end, &there);
 }
 
-/* The leading stress is the pressure that strain raises. */
+/* Is the leading stress the pressure that strain raises? */
 static bool one_pressure(const struct gb_leg *leg, const struct state *from)
 {
     return isotropic(leg, from->dimension) ||
            led(leg, 0) + led(leg, 1) + led(leg, 2) == 1;
 }
 
-/* The leading stress at which an end is reached, on the side of the stress at the
- * beginning to which the leg goes; NaN: it does not follow. */
+/* The leading stress at which an end is reached, in the direction in which the leg
+ * moves; NaN: it does not follow from the text. */
 static double solve(const struct gb_leg *leg, const struct gb_leg_end *end,
                     const struct state *from)
 {
@@ -174,7 +178,7 @@ static void leg_sketch_add(struct gb_leg_plan *plan, int leg, const struct state
     }
 }
 
-/* The end that follows from the text, the first where none does. */
+/* The end that follows from the text, or the first if none does. */
 static const struct gb_leg_end *choose_end(const struct gb_leg *leg,
                                            const struct state *from, double *t)
 {
@@ -225,10 +229,10 @@ void gb_leg_editor_plan(struct gb_leg_plan *plan, const struct gb_path *path,
     }
 }
 
-/* Room for the label of the x axis, over the range of the path. */
+/* Room for the label of the x axis, as a fraction of the range of the path. */
 static const double label_share = 0.3;
 
-/* Two states of a plan and where they lie in the sketch. */
+/* Two states of a plan and their positions in the sketch. */
 struct leg_sketch_line {
     double x[2], y[2];
 };
@@ -238,7 +242,7 @@ int gb_leg_editor_mark(int leg)
     return leg <= 9 ? '0' + leg : 'a' + (leg - 10) % 26;
 }
 
-/* Legs without known stresses interrupt the path: it goes on where it is known again. */
+/* A line in the (p, q) plane.  Legs with unknown stresses interrupt the path. */
 static bool stress_line(const struct gb_leg_plan *plan, int i,
                         struct leg_sketch_line *line)
 {
@@ -248,7 +252,8 @@ static bool stress_line(const struct gb_leg_plan *plan, int i,
     return isfinite(to->p) && isfinite(to->q) && isfinite(from->p) && isfinite(from->q);
 }
 
-/* Reversals of a leg side by side; a new leg begins at strain 0. */
+/* A line in the strain sketch.  Reversals of a leg are side by side; a new leg begins
+ * at strain 0. */
 static bool strain_line(const struct gb_leg_plan *plan, int i,
                         struct leg_sketch_line *line)
 {
@@ -319,9 +324,9 @@ void gb_leg_editor_sketch(const struct gb_path *path, int dimension, int focus,
     }
 }
 
-/* The editor of a loading path: the legs as texts, a leg in words, keys, drawing. */
+/* The editor: the legs as texts, a leg in words, keys, drawing. */
 
-/* The legs of a loading path under edit, one text each, with what is wrong with them. */
+/* The legs being edited, one text each, with their errors. */
 
 static int leg_list_count(const struct gb_leg_list *list)
 {
@@ -333,7 +338,8 @@ static const char *leg_list_at(const struct gb_leg_list *list, int at)
     return g_ptr_array_index(list->text, at);
 }
 
-/* Reads every text anew: what a leg means may follow from those in front of it. */
+/* Parses all texts again, because the meaning of a leg may depend on the legs before
+ * it. */
 static void read_legs(struct gb_leg_list *list)
 {
     list->path.count = 0;
@@ -498,7 +504,7 @@ static bool is_fixed(const struct gb_leg_component *component)
     return component->control == GB_LEG_STRAIN && component->value == 0.0;
 }
 
-/* "xz", or "-0.5 x" in proportion to the first. */
+/* Adds "xz", or "-0.5 x" in proportion to the leading component. */
 static void add_leading(const struct gb_leg *leg, int k, char *text)
 {
     const double share = leg->component[k].value;
@@ -594,19 +600,20 @@ void gb_leg_editor_words(const struct gb_leg *leg, int dimension,
     }
 }
 
-/* The legs above, below them what the focused one does and the sketch, or the shorthands
- * while it is typed; the keys in the last rows. */
+/* Screen of the editor.  The legs are at the top; below them is what the focused leg
+ * does and the sketch, or the shorthands while a leg is typed.  The keys are in the
+ * last rows. */
 
 enum {
-    TEXT_COL = 3,   /* of a leg, behind its number */
-    WORD_COLS = 7,  /* "leads  " */
-    ERROR_ROWS = 3, /* of the focused leg */
+    TEXT_COL = 3,   /* text of a leg, after its number */
+    WORD_COLS = 7,  /* width of "leads  " */
+    ERROR_ROWS = 3, /* error of the focused leg */
     KEY_ROWS = 2,
     LINES = 2 * GB_LEG_LIST_MAX + 3,
     SKETCH_ROWS = 9
 };
 
-/* A line of the list: a leg, what is wrong with it, or the one that is typed. */
+/* A line of the list: a leg, its error, or the leg being typed. */
 struct line {
     int leg; /* from 0 */
     int rows;
@@ -718,7 +725,7 @@ static int rows_to_focus(const struct lines *lines, int from)
     return rows;
 }
 
-/* Legs behind one that is put in count from it. */
+/* Number of a line.  Legs after an inserted one are counted from it. */
 static int number_of(const struct gb_leg_editor *editor, const struct line *line)
 {
     const bool behind = editor->typing == GB_LEG_EDITOR_INSERT && !line->typed &&
@@ -801,7 +808,7 @@ static void draw_sketch(struct gb_leg_editor *editor, const struct gb_paint *pai
     }
 }
 
-/* What the focused leg does, left; the whole path, right. */
+/* Draws what the focused leg does on the left, and the whole path on the right. */
 static void draw_preview(struct gb_leg_editor *editor, const struct gb_paint *paint)
 {
     const struct gb_leg *leg = gb_leg_editor_list_leg(&editor->list, editor->focus);
@@ -817,7 +824,7 @@ static void draw_preview(struct gb_leg_editor *editor, const struct gb_paint *pa
     }
 }
 
-/* "shear" fits "sh", and "shear xz to" too. */
+/* Does a shorthand match the typed text: "shear" matches "sh" and "shear xz to"? */
 static bool fits(const char *usage, const char *typed)
 {
     const size_t word = strcspn(usage, " ");
@@ -826,7 +833,7 @@ static bool fits(const char *usage, const char *typed)
            (length == word || (length < word && typed[length] == '\0'));
 }
 
-/* The index-th shorthand that fits what is typed; false: there are no more. */
+/* The index-th shorthand that matches the typed text; false: no more. */
 static bool leg_editor_offer(struct gb_leg_editor *editor, int index, const char **usage,
                              const char **doc)
 {
@@ -841,7 +848,7 @@ static bool leg_editor_offer(struct gb_leg_editor *editor, int index, const char
     return false;
 }
 
-/* The shorthands that fit, and what the focused one does. */
+/* Draws the matching shorthands and what the focused one does. */
 static void draw_offers(struct gb_leg_editor *editor, const struct gb_paint *paint)
 {
     const char *usage, *doc, *focused = "";
@@ -871,7 +878,7 @@ static void draw_typing(struct gb_leg_editor *editor, const struct gb_paint *pai
     }
 }
 
-/* "Enter edit  O add  ...  Esc restore", from the table of keys. */
+/* Writes "Enter edit  O add  ...  Esc restore" from the key table. */
 static void write_keys(const struct gb_leg_editor *editor, GString *text)
 {
     if (editor->typing != GB_LEG_EDITOR_LIST) {
@@ -927,7 +934,7 @@ void gb_leg_editor_finish(struct gb_leg_editor *editor)
     gb_plot_finish(&editor->plot);
 }
 
-/* The focus is on a leg, or on the line below the last one. */
+/* Moves the focus to a leg, or to the line after the last one. */
 static void go_to(struct gb_leg_editor *editor, int to)
 {
     editor->focus = CLAMP(to, 0, leg_list_count(&editor->list));
@@ -1000,7 +1007,7 @@ static void move_offer(struct gb_leg_editor *editor, int by)
     }
 }
 
-/* Writes the word of the focused shorthand; false: none fits, or it is there. */
+/* Inserts the word of the focused shorthand; false: none matches, or it is complete. */
 static bool complete(struct gb_leg_editor *editor)
 {
     const char *usage, *doc;
@@ -1038,7 +1045,8 @@ static void accept(struct gb_leg_editor *editor)
     editor->typing = GB_LEG_EDITOR_LIST;
 }
 
-/* Without a shorthand nothing is meant: Enter takes the one in focus. */
+/* Handles Enter.  A text without a shorthand has no meaning, so Enter inserts the
+ * focused one. */
 static void enter(struct gb_leg_editor *editor)
 {
     const char *text = gb_prompt_text(&editor->prompt);

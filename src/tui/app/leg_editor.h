@@ -8,24 +8,24 @@
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 
-/* The planned path into a plot of its size: in the (p, q) plane where leg `focus` (from 1)
- * or, for 0, any leg follows from the text; else the strain of the leading component of
- * each leg; else a sentence.  The number of a leg stands at its end. */
+/* Draws the planned path into a plot.  The (p, q) plane is used if leg `focus` (from 1;
+ * 0: any leg) follows from the text; otherwise the strain of the leading component of
+ * each leg; otherwise a sentence.  Each leg has its number at its end. */
 void gb_leg_editor_sketch(const struct gb_path *path, int dimension, int focus,
                           struct gb_plot *plot);
 
-/* '1' to '9', then 'a' to 'o': the mark of a leg (from 1), also without colours. */
+/* Mark of a leg (from 1): '1' to '9', then 'a' to 'o'; also used without colours. */
 int gb_leg_editor_mark(int leg);
 
-/* The path that follows from the text alone: what the packing decides is NaN.  A packing
- * under isotropic strain is taken for isotropic, one that was not sheared for free of shear
- * stress. */
+/* The path as far as it follows from the text; NaN where it depends on the packing.  A
+ * packing under isotropic strain is assumed to be isotropic, and a packing that was not
+ * sheared to have no shear stress. */
 enum { GB_LEG_PLAN_STATES = 5 * GB_PATH_LEGS_MAX + 1 };
 
 struct gb_leg_plan_state {
     int leg;       /* from 1; 0: before the first */
     double p, q;   /* Pa */
-    double strain; /* of the component that leads this leg, since the leg began */
+    double strain; /* strain of the leading component since the leg began */
 };
 
 struct gb_leg_plan {
@@ -36,8 +36,8 @@ struct gb_leg_plan {
 void gb_leg_editor_plan(struct gb_leg_plan *plan, const struct gb_path *path,
                         int dimension);
 
-/* The legs of loading.path, one line each, and what they will do.  While a leg is typed
- * the shorthands that fit are offered, and what is wrong stands below it. */
+/* The legs of loading.path, one line each, and what they do.  While a leg is typed,
+ * matching shorthands are offered and its error is shown below it. */
 
 enum gb_leg_editor_typing {
     GB_LEG_EDITOR_LIST,   /* nothing is typed */
@@ -46,25 +46,25 @@ enum gb_leg_editor_typing {
     GB_LEG_EDITOR_WHOLE   /* all legs as one text */
 };
 
-enum { GB_LEG_LIST_MAX = 64 }; /* more than a path takes: the surplus is an error */
+enum { GB_LEG_LIST_MAX = 64 }; /* more than a path allows; the excess is an error */
 
 struct gb_leg_list {
     GPtrArray *text;            /* char *; owned */
     GPtrArray *former;          /* joined texts before each change, for undo; owned */
     int dimension;              /* of the scene */
-    struct gb_path path;        /* the good legs */
-    int index[GB_LEG_LIST_MAX]; /* of a text in path; -1: not good */
-    struct gb_error error[GB_LEG_LIST_MAX]; /* why not, and what is accepted */
+    struct gb_path path;        /* the valid legs */
+    int index[GB_LEG_LIST_MAX]; /* index of a text in path; -1: invalid */
+    struct gb_error error[GB_LEG_LIST_MAX]; /* why it is invalid, and what is expected */
     int errors;
 };
 
 struct gb_leg_editor {
     struct gb_leg_list list;
-    int focus; /* a leg; their number: the line below them */
+    int focus; /* a leg, or their number for the line below them */
     int top, page;
     enum gb_leg_editor_typing typing;
     struct gb_prompt prompt;
-    int offer; /* focused one of the shorthands that fit */
+    int offer; /* focused one of the matching shorthands */
     enum gb_plot_glyphs glyphs;
     struct gb_plot plot;
 };
@@ -75,7 +75,7 @@ void gb_leg_editor_finish(struct gb_leg_editor *editor); /* zeroed is fine */
 
 void gb_leg_editor_draw(struct gb_leg_editor *editor, const struct gb_paint *inside);
 
-/* Takes an event while a leg is typed; false: nothing is typed. */
+/* Handles an event while a leg is typed; false: nothing is typed. */
 bool gb_leg_editor_type(struct gb_leg_editor *editor, const struct gb_term_event *event);
 
 /* Commands while nothing is typed. */
@@ -104,30 +104,30 @@ void gb_leg_editor_list_init(struct gb_leg_list *list, const char *text, int dim
 
 void gb_leg_editor_list_finish(struct gb_leg_list *list); /* zeroed is fine */
 
-/* The leg at a position; NULL: it is not good. */
+/* The leg at a position; NULL: it is invalid. */
 const struct gb_leg *gb_leg_editor_list_leg(const struct gb_leg_list *list, int at);
 
 /* The whole path, "isotropic to 50 MPa; unload"; g_free. */
 char *gb_leg_editor_list_join(const struct gb_leg_list *list);
 
-/* Changes; each can be undone.  A text with ';' or `then` becomes several legs, an empty
- * one none.  Returns the number of legs put in. */
+/* Changes, each of which can be undone.  A text with ';' or `then` becomes several
+ * legs, an empty text none.  Returns the number of legs inserted. */
 int gb_leg_editor_list_insert(struct gb_leg_list *list, int at, const char *text);
 
 int gb_leg_editor_list_replace(struct gb_leg_list *list, int at, const char *text);
 
 void gb_leg_editor_list_remove(struct gb_leg_list *list, int at);
 
-/* Exchanges a leg with the next (1) or former (-1); false: there is none. */
+/* Exchanges a leg with the next (1) or previous (-1) one; false: there is none. */
 bool gb_leg_editor_list_move(struct gb_leg_list *list, int at, int by);
 
 void gb_leg_editor_list_set(struct gb_leg_list *list, const char *text);
 
-/* The list before the last change; false: there was none. */
+/* Restores the list before the last change; false: there was none. */
 bool gb_leg_editor_list_undo(struct gb_leg_list *list);
 
-/* What is wrong with a text in place of the leg at a position, or behind the last one;
- * leg: what it says where nothing is. */
+/* Checks a text in place of the leg at a position, or after the last one. leg: receives
+ * its meaning if it is valid. */
 bool gb_leg_editor_list_try(const struct gb_leg_list *list, int at, const char *text,
                             struct gb_leg *leg, struct gb_error *err);
 

@@ -1,3 +1,5 @@
+/* Commands of the panes: the clipboard, mouse, theme, help and quitting, the editor of
+ * a loading path, focus and navigation, and the value of the focused parameter. */
 #include <glib.h>
 #include <string.h>
 
@@ -10,7 +12,7 @@
 
 /* The clipboard: what the dialog shows, or what is under the cursor of the pane. */
 
-/* The folder of the run shown; NULL: none. */
+/* The folder of the run on display; NULL: none. */
 static char *folder(const struct gb_session *session)
 {
     return session->runner != NULL ? g_strdup(gb_runner_directory(session->runner))
@@ -28,7 +30,7 @@ static char *chosen(struct gb_app *app)
     return text != NULL ? text : folder(&screen->session);
 }
 
-/* "copied: contact.mu=0.15"; a dialog tells it above its content. */
+/* Reports "copied: contact.mu=0.15"; a dialog shows it above its contents. */
 static void tell(struct gb_app *app, enum gb_style style, const char *text)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -77,7 +79,7 @@ void gb_pane_commands_mouse(struct gb_app *app, const struct gb_key *key)
                                   : "mouse off: the terminal selects text");
 }
 
-/* After the last theme the first one, which asks the terminal. */
+/* Selects the next theme; after the last one the first, which asks the terminal. */
 void gb_pane_commands_theme(struct gb_app *app, const struct gb_key *key)
 {
     static const char *const told[] = {
@@ -133,7 +135,7 @@ void gb_pane_commands_ask_quit(struct gb_app *app)
     app->screen.dialog.other = answers[gb_run_lifecycle_detaching(&app->screen.session)];
 }
 
-/* d: the run goes on in a process of its own. */
+/* Key d in the question before quitting: the run continues in a process of its own. */
 bool gb_pane_commands_press_quit(struct gb_app *app, const struct gb_term_event *event)
 {
     struct gb_session *session = &app->screen.session;
@@ -143,7 +145,7 @@ bool gb_pane_commands_press_quit(struct gb_app *app, const struct gb_term_event 
         return false;
     }
     switch (gb_run_lifecycle_detaching(session)) {
-    case GB_DETACH_NOTHING: /* it has ended meanwhile */
+    case GB_DETACH_NOTHING: /* it has ended in the meantime */
         return false;
     case GB_DETACH_START:
         if (!gb_session_start(session, &err)) {
@@ -224,7 +226,7 @@ void gb_pane_commands_leg_text(struct gb_app *app, const struct gb_key *key)
     gb_leg_editor_whole(editor_of(app));
 }
 
-/* The legs become the value of loading.path, and the quick cell follows it. */
+/* Sets loading.path from the legs and starts the quick cell. */
 void gb_pane_commands_leg_take(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;
@@ -251,7 +253,7 @@ void gb_pane_commands_navigate(struct gb_app *app, const struct gb_key *key)
     }
 }
 
-/* A warning of a conflict is kept. */
+/* Changes the focused value by a step.  A warning about a conflict stays visible. */
 static void step(struct gb_screen *screen, int direction)
 {
     char text[sizeof screen->message.text];
@@ -266,7 +268,7 @@ static void step(struct gb_screen *screen, int direction)
     }
 }
 
-/* In the compact layout plot and state share the focus. */
+/* Moves the focus.  In the compact layout plot and state share it. */
 static void change_focus(struct gb_screen *screen, int step)
 {
     screen->focus = (enum gb_pane)(((int)screen->focus + step + GB_PANES) % GB_PANES);
@@ -287,7 +289,7 @@ void gb_pane_commands_previous(struct gb_app *app, const struct gb_key *key)
     change_focus(&app->screen, -1);
 }
 
-/* Tab goes on to the next pane, which is zoomed then. */
+/* Zooms the focused pane.  Tab then zooms the next pane. */
 void gb_pane_commands_zoom(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;

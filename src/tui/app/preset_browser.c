@@ -98,7 +98,7 @@ enum {
     HEAD_LINES = 4,
     DIFFERENCE = 400
 };
-enum { BYTES_MAX = 1 << 20 }; /* of a preset */
+enum { BYTES_MAX = 1 << 20 }; /* size limit of a preset */
 
 static int length_of(char **names)
 {
@@ -157,7 +157,7 @@ static void read_preview(struct gb_preset_browser *browser)
     }
 }
 
-/* Names that contain the words of the filter. */
+/* Rank of a name: whether it contains the words of the filter. */
 static int rank_name(void *data, int item, char **words)
 {
     const struct gb_preset_browser *browser = data;
@@ -258,7 +258,7 @@ void gb_preset_browser_draw(struct gb_preset_browser *browser,
     draw_preview(browser, &preview);
 }
 
-/* Others are compared with the selected preset from now on. */
+/* Marks the selected preset as the reference for comparisons. */
 static void mark(struct gb_preset_browser *browser)
 {
     if (browser->preset != NULL) {

@@ -1,3 +1,6 @@
+/* Drawing of the workbench: header, panes, message line and footer, and the mapping of
+ * mouse clicks to what is at a cell.  Each pane is a row of a table with its functions
+ * for drawing, clicks and the clipboard. */
 #include "tui/app/screen.h"
 
 #include <glib.h>
@@ -62,7 +65,7 @@ static void navigate_plot(struct gb_screen *screen, enum gb_action action)
     gb_panel_plot_cursor_navigate(&screen->plot, &screen->session, action);
 }
 
-/* A click on the title shows the next view, one on the field moves the cursor. */
+/* A click on the title shows the next view; a click on the field moves the cursor. */
 static void click_plot(struct gb_screen *screen, int row, int col)
 {
     if (row == 0) {
@@ -93,7 +96,7 @@ static void draw_state(struct gb_screen *screen, const struct gb_paint *paint,
     gb_panel_state_draw(paint, &screen->session, focus);
 }
 
-/* The error of a failed run. */
+/* Describes the error of a failed run. */
 static void describe_run(struct gb_screen *screen, struct gb_message *message)
 {
     if (screen->session.now.error.text[0] != '\0') {
@@ -114,7 +117,7 @@ static void navigate_events(struct gb_screen *screen, enum gb_action action)
     gb_panel_state_events_navigate(&screen->events, &screen->session, action);
 }
 
-/* The newest line shown. */
+/* The newest line on display. */
 static char *copied_events(struct gb_screen *screen)
 {
     return g_strdup(gb_session_event_line(&screen->session, screen->events.back));
@@ -164,7 +167,7 @@ static void draw_header(struct gb_screen *screen)
     const int from = cols - gb_paint_width(right) - 1;
     const int name = gb_paint_text(&paint, 0, 1, GB_STYLE_BOLD, "greenbody") + 2;
     const struct gb_params *params =
-        shown.params; /* of what the word on the right is about */
+        shown.params; /* parameters of the scene named on the right */
     char title[192];
     snprintf(title, sizeof title, "%s \u00b7 N %lld", params->title,
              (long long)params->count);
@@ -190,7 +193,7 @@ static int footer_width(const struct gb_key *key, int gap)
     return gb_paint_width(name) + 1 + gb_paint_width(key->brief) + gap;
 }
 
-/* A key in the footer and its column. */
+/* A key in the footer with its column. */
 struct footer_key {
     struct gb_key key;
     int col;
@@ -198,8 +201,8 @@ struct footer_key {
 
 enum { FOOTER_KEYS = GB_KEYS_FOOTER + 2 };
 
-/* The keys of the pane in front, as far as they fit, and always help and quit.  Returns
- * their number. */
+/* Places the keys of the front pane that fit, and always help and quit.  Returns their
+ * number. */
 static int layout_footer(enum gb_pane pane, int cols, struct footer_key in[FOOTER_KEYS])
 {
     const size_t rows = gb_keys_count();
@@ -258,7 +261,7 @@ bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
     return false;
 }
 
-/* The last message, or the description of the focused pane. */
+/* Draws the last message, or the description of the focused pane. */
 static void draw_message(struct gb_screen *screen)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);

@@ -18,7 +18,7 @@ struct gb_screen {
     struct gb_dialog dialog;
     struct gb_term_image image; /* picture over the cells of the packing */
     struct gb_message message;  /* "": the description of the focused pane instead */
-    const char *making; /* a message that ends with the child command; NULL: none */
+    const char *making; /* message to clear when the child command ends; NULL: none */
 };
 
 /* Draws everything into curses' virtual screen; gb_term_flush sends the differences to
@@ -39,7 +39,7 @@ struct gb_pane_type {
     void (*navigate)(struct gb_screen *screen, enum gb_action action);
     void (*click)(struct gb_screen *screen, int row, int col);
     void (*describe)(struct gb_screen *screen, struct gb_message *message);
-    /* What is under the cursor, for the clipboard (g_free); NULL: nothing. */
+    /* The text under the cursor, for the clipboard (g_free); NULL: nothing. */
     char *(*copied)(struct gb_screen *screen);
 };
 

@@ -18,7 +18,7 @@ void gb_view_commands_curve_open(struct gb_app *app, const struct gb_key *key)
                           screen->plot.at_pa);
 }
 
-/* The curve in focus; a note of the last command is removed. */
+/* The focused curve; clears the note of the last command. */
 static int focused(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -83,7 +83,7 @@ void gb_view_commands_curve_accept_name(struct gb_app *app)
     list->naming = false;
 }
 
-/* Focuses the plot where the compact layout hides it. */
+/* Focuses the plot if the compact layout hides it. */
 static void uncover_plot(struct gb_screen *screen)
 {
     if (!gb_layout_shows(&screen->layout, GB_PANE_PLOT)) {
@@ -191,7 +191,7 @@ char *gb_view_commands_densities_text(struct gb_app *app)
     return gb_density_table_text(dialog->session, dialog->hide_previous);
 }
 
-/* The view of the packing comes with it: elsewhere nothing would be seen. */
+/* Changes the colouring and switches to the view of the packing, where it is visible. */
 void gb_view_commands_colour(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_panel_plot *plot = &app->screen.plot;

@@ -20,14 +20,15 @@
 #include "tui/term/settings.h"
 #include "tui/term/term.h"
 
-/* The screens of runs of other processes: the loop that reads their files again and again, the
+/* Screens for runs of other processes: the loop that reads their files repeatedly, the
  * list to choose a run from, and the screen of many runs. */
 
-/* A screen of files that other processes write: events, and the files read again. */
+/* A screen that shows files of other processes: its events, and reading the files. */
 struct reread_loop {
-    /* Seconds between two readings, or ten times the duration of one, whichever is longer. */
+    /* Seconds between two reads, or ten times the duration of a read if that is longer.
+     */
     double reread_s;
-    /* False: the screen is left. */
+    /* False: leave the screen. */
     bool (*key)(void *data, struct gb_term *term, const struct gb_term_event *event);
     void (*wheel)(void *data, int rows); /* -1, 0 or 1 */
     void (*reread)(void *data);
@@ -35,12 +36,12 @@ struct reread_loop {
     void *data;
 };
 
-/* Time between two readings over the duration of one, at least. */
+/* Least time between two reads, over the duration of a read. */
 static const double share = 10.0;
 
 enum { STATUS_SIGNAL = 128 };
 
-/* Exit status; -1: continue. */
+/* Handles an event.  Returns the exit status; -1: continue. */
 static int handle(const struct reread_loop *loop, struct gb_term *term,
                   const struct gb_term_event *event)
 {
@@ -66,7 +67,7 @@ static int handle(const struct reread_loop *loop, struct gb_term *term,
     return -1;
 }
 
-/* Reads and returns when to do so again. */
+/* Reads the files and returns when to read them again. */
 static double read_again(const struct reread_loop *loop)
 {
     const double from = gb_clock_s();
@@ -75,8 +76,8 @@ static double read_again(const struct reread_loop *loop)
     return now + fmax(loop->reread_s, share * (now - from));
 }
 
-/* Until the screen is left or a signal ends it; stops and destroys the terminal.  Returns
- * the exit status. */
+/* Runs until the screen is left or a signal arrives, then stops and destroys the
+ * terminal.  Returns the exit status. */
 static int reread_loop_run(const struct reread_loop *loop, struct gb_term *term)
 {
     double due = gb_clock_s() + loop->reread_s;
@@ -106,23 +107,23 @@ static int reread_loop_run(const struct reread_loop *loop, struct gb_term *term)
 struct picker {
     GPtrArray *(*list)(void);
     GPtrArray *items;       /* all runs */
-    struct gb_list_box box; /* of those that match the filter */
-    bool asks;              /* whether to delete the focused one */
-    int files;              /* of that */
+    struct gb_list_box box; /* runs that match the filter */
+    bool asks;              /* asks whether to delete the focused run */
+    int files;              /* number of files of that run */
     char note[400];
     enum gb_style note_style;
     bool leave;
     char *chosen; /* directory; NULL: none */
 };
 
-/* The run in focus; NULL: none matches. */
+/* The focused run; NULL: none matches. */
 static const struct gb_run_list_item *focused(const struct picker *picker)
 {
     const int item = gb_list_box_focused(&picker->box);
     return item >= 0 ? g_ptr_array_index(picker->items, (guint)item) : NULL;
 }
 
-/* Every word of the filter is in the name, the title or the state. */
+/* Rank of a run: is every word of the filter in its name, title or state? */
 static int rank_run(void *data, int at, char **words)
 {
     const struct picker *picker = data;
@@ -136,7 +137,8 @@ static int rank_run(void *data, int at, char **words)
     return good;
 }
 
-/* The run of this directory keeps the focus; NULL: the first one. */
+/* Applies the filter and keeps the focus on the run of this directory; NULL: the first
+ * run. */
 static void apply_filter(struct picker *picker, const char *directory)
 {
     const int top = picker->box.top;
@@ -159,14 +161,14 @@ static void picker_reread(struct picker *picker)
     g_clear_pointer(&picker->items, g_ptr_array_unref);
     picker->items = fresh;
     apply_filter(picker, directory);
-    /* the question was about another run */
+    /* the question referred to another run */
     item = focused(picker);
     picker->asks = picker->asks && item != NULL && item->engine == GB_RUN_LIST_NONE &&
                    g_strcmp0(item->directory, directory) == 0;
     g_free(directory);
 }
 
-/* Esc clears the filter first. */
+/* Leaves the list; if there is a filter, Esc clears it first. */
 static void picker_leave(struct picker *picker)
 {
     if (*gb_prompt_text(&picker->box.filter) != '\0') {
@@ -180,7 +182,7 @@ static void picker_leave(struct picker *picker)
 enum {
     PICKER_MIN_ROWS = 12,
     PICKER_MIN_COLS = 40,
-    ALL_COLS = 76, /* from here on with density and pressure */
+    ALL_COLS = 76, /* columns from which density and pressure are shown */
     ABOVE = 4,     /* header, filter, blank line, head */
     BELOW = 3      /* directory, note or question, keys */
 };
@@ -204,7 +206,7 @@ static void picker_draw_header(const struct picker *picker, const struct gb_pain
     g_free(size);
 }
 
-/* What a row is written from. */
+/* Data from which a row is written. */
 struct source {
     const struct picker *picker;
     enum gb_run_list_extent extent;
@@ -286,7 +288,7 @@ static void draw_screen(struct picker *picker, const struct gb_term *term)
     draw_foot(picker, &paint);
 }
 
-/* Seconds between two readings of the folders. */
+/* Seconds between two reads of the folders. */
 static const double picker_reread_s = 2.0;
 
 enum { CTRL_D = 'D' & 31 };
@@ -339,7 +341,7 @@ static void choose(struct picker *picker)
     }
 }
 
-/* Keys that are not text; false: the line takes them. */
+/* Handles keys that are not text; false: the filter handles them. */
 static bool picker_act(struct picker *picker, int code)
 {
     switch (code) {
@@ -427,13 +429,13 @@ int gb_watch_pick(GPtrArray *(*list)(void), const struct gb_settings *settings,
     return status;
 }
 
-/* The screen of many runs: four views with a row each, the keys, and the loop that reads the
- * files again. */
+/* The screen of many runs: four views, each a row of a table, the keys, and reading the
+ * files repeatedly. */
 
 enum { MIN_ROWS = 12, MIN_COLS = 40, LAST_ASCII = 126 };
 
-/* The screen of many runs, read-only: curves as means with bands, a map over two varied
- * keys at a pressure, the runs, the fit of a calibration. */
+/* State of the screen of many runs, which is read-only: mean curves with bands, a map
+ * over two varied keys at a pressure, the runs, the fit of a calibration. */
 struct watch {
     struct gb_runset_view runset;
     struct gb_error error; /* error of the last reading */
@@ -491,7 +493,7 @@ static void write_run(void *data, int item, struct gb_list_box_line *line)
     line->ink[3] = GB_STYLE_WARN;
 }
 
-/* State, progress, name, and why a run failed. */
+/* Draws state, progress, name and the reason of a failure for each run. */
 static void watch_runs_draw(struct watch *watch, const struct gb_paint *paint)
 {
     const struct gb_rect rect = {paint->rect.row + 1, paint->rect.col + 2,
@@ -513,7 +515,7 @@ static void write_pressure(const struct watch *watch, char *text, size_t size)
                           size);
 }
 
-/* Columns of a cell: with two digits of the error, with one, without it. */
+/* Columns of a cell: with two digits of the error, with one, or without it. */
 enum { NAME_COLS = 14, CELL_COLS = 20, CELL_COLS_ERROR = 15, CELL_COLS_MIN = 7 };
 
 struct range {
@@ -531,7 +533,8 @@ static struct range range_of(const struct watch *watch)
     return range;
 }
 
-/* "▓▓ 0.5120 +-0.0030": darker is denser; "▓0.512 +-0.003" and "▓0.512" in narrow columns. */
+/* "▓▓ 0.5120 +-0.0030": darker is denser; "▓0.512 +-0.003" and "▓0.512" in narrow
+ * columns. */
 static void draw_cell(const struct watch *watch, const struct gb_paint *paint, int row,
                       int col, int cols, const struct gb_runset_view_group *group,
                       struct range range)
@@ -596,7 +599,7 @@ static void watch_views_group_name(const struct gb_runset_view_group *group, cha
     strcat(name, cells);
 }
 
-/* One row per group, where one key varies or more than two. */
+/* One row per group, if one key or more than two keys vary. */
 static void draw_list(const struct watch *watch, const struct gb_paint *paint)
 {
     const struct range range = range_of(watch);
@@ -644,7 +647,7 @@ static void find_ends(const struct watch *watch, double x[2], double y[2])
 
 enum { ENTRIES = 64 };
 
-/* The mean plus `off` standard errors. */
+/* Draws the mean plus `off` standard errors. */
 static void draw_curve(struct watch *watch, const struct gb_runset_view_group *group,
                        double off, int ink, int marker)
 {
@@ -662,8 +665,8 @@ static void draw_curve(struct watch *watch, const struct gb_runset_view_group *g
                                                         .spacing = 8});
 }
 
-/* Draws all groups and the legend, with `foot` rows for it below the plot; false when the
- * legend is incomplete or covers a line.  *needed: rows of a complete foot. */
+/* Draws all groups and the legend, with `foot` rows for it below the plot.  False: the
+ * legend is incomplete or covers a line. *needed: rows of a complete foot. */
 static bool draw_groups(struct watch *watch, const struct gb_paint *paint,
                         const double x[2], const double y[2], int foot, int *needed)
 {
@@ -705,15 +708,14 @@ static void watch_curves_draw(struct watch *watch, const struct gb_paint *paint)
         gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has reached 1 MPa yet");
         return;
     }
-    if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no free area inside */
+    if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no free area in the plot */
         (void)draw_groups(watch, paint, x, y, foot, &foot);
     }
     gb_paint_plot(paint, 1, 1, &watch->plot);
 }
 
-/* One row per view of the screen of many runs: digit, title and footer follow from it.  A new
- * view is a file watch_NAME.c, a row in watch.c and a line in meson.build.  Views of
- * calibrations are the last rows. */
+/* One row per view of the screen of many runs; digit, title and footer use it.  A new
+ * view needs a drawing function and a row.  Views of calibrations are the last rows. */
 struct watch_view {
     const char *title; /* without the digit */
     const char *hint;  /* footer: keys of the view; "" without */
@@ -730,7 +732,7 @@ static const struct watch_view views[] = {
     {"Fit", "", GB_WATCH_VIEW_CALIBRATION, watch_fit_draw},
 };
 
-/* Number of views that a directory has, and the row of one. */
+/* Number of views for a directory, and the row of one. */
 static int watch_views_count(const struct watch *watch)
 {
     int count = 0;
@@ -745,7 +747,7 @@ static const struct watch_view *watch_views_at(int index)
     return &views[index];
 }
 
-/* Common keys, and those of the view. */
+/* Writes the common keys and the keys of the view. */
 static void write_hint(const struct watch *watch, char *text, size_t size)
 {
     const char *hint = watch_views_at(watch->view)->hint;
@@ -800,9 +802,9 @@ static int watch_views_first(const struct watch *watch)
     return views[last].shown == GB_WATCH_VIEW_CALIBRATION ? last : 0;
 }
 
-/* Seconds between two readings of the files. */
+/* Seconds between two reads of the files. */
 static const double reread_s = 1.0;
-/* Initial pressure of the map: P1 compares powders there. */
+/* Initial pressure of the map, at which P1 compares powders. */
 static const double default_pa = 100e6;
 
 static void move_level(struct watch *watch, int by)
@@ -900,8 +902,8 @@ static void act(struct watch *watch, struct gb_term *term, int code)
     }
 }
 
-/* After an error the old data stay on the screen with the message; the files are read
- * again later. */
+/* Reads the files.  After an error the old data stay on the screen with the message,
+ * and the files are read again later. */
 static void reread(struct watch *watch)
 {
     struct gb_runset_view fresh;

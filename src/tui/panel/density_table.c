@@ -16,7 +16,7 @@ enum {
     MISFIT_COLS = 7,
     NAME_COLS_MIN = 11,
     NAME_COLS_MAX = 40,
-    FOOT_ROWS = 3, /* what the signs mean */
+    FOOT_ROWS = 3, /* explanation of the signs */
     LINES_MAX = 3 * GB_PRESSURE_ROWS
 };
 
@@ -24,7 +24,7 @@ enum {
 struct line {
     char name[64];
     char value[LEVELS][VALUE_COLS + 1];
-    char misfit[MISFIT_COLS + 1]; /* to the measured data */
+    char misfit[MISFIT_COLS + 1]; /* misfit to the measured data */
     enum gb_style name_style, style[LEVELS];
 };
 
@@ -116,7 +116,7 @@ static void draw_head(const struct gb_paint *paint, int name_cols, bool misfit)
     for (int k = 0; k < LEVELS; k++) {
         char pressure[24];
         gb_units_format_short(level_pa[k], GB_DIM_PRESSURE, 4, pressure, sizeof pressure);
-        const int end = name_cols + (k + 1) * VALUE_COLS - 1; /* the sign stays free */
+        const int end = name_cols + (k + 1) * VALUE_COLS - 1; /* room for the sign */
         gb_paint_text(paint, 0, end - gb_paint_width(pressure), GB_STYLE_BOLD, pressure);
     }
     if (misfit) {

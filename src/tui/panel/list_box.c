@@ -4,7 +4,7 @@
 #include <ncurses.h>
 #include <string.h>
 
-enum { FAR = 1 << 20 }; /* beyond any list */
+enum { FAR = 1 << 20 }; /* more than any list */
 
 void gb_list_box_finish(struct gb_list_box *list)
 {
@@ -31,7 +31,7 @@ bool gb_list_box_matches(char **words, const char *text)
     return found;
 }
 
-/* Sorts by insertion: items of equal rank keep their order. */
+/* Insertion sort: items of equal rank keep their order. */
 void gb_list_box_search(struct gb_list_box *list, int total,
                         int (*rank)(void *data, int item, char **words), void *data)
 {
@@ -104,7 +104,7 @@ bool gb_list_box_navigate(struct gb_list_box *list, enum gb_action action)
     }
 }
 
-/* Home and End are keys of the filter. */
+/* Action of a key.  Home and End belong to the filter. */
 static enum gb_action action_of(int code)
 {
     switch (code) {
@@ -133,7 +133,7 @@ enum gb_list_box_event gb_list_box_handle(struct gb_list_box *list,
 
 /* --- drawing ---------------------------------------------------------------------- */
 
-/* First column of cells and width of a column of the list. */
+/* First column of the cells, and width of a column of the list. */
 static int column_start(const struct gb_list_box_look *look, int cols, int column,
                         int *width)
 {
@@ -182,7 +182,7 @@ static void draw_row(const struct gb_paint *paint, const struct gb_list_box_look
     }
 }
 
-/* The focus is on the screen, and no row is left empty that could be filled. */
+/* Keeps the focus visible and fills the page. */
 static void keep_in_view(struct gb_list_box *list, int page)
 {
     list->page = MAX(page, 1);

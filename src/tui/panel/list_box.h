@@ -4,8 +4,8 @@
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 
-/* The list of the workbench: rows in columns, a filter that is typed, paging and scrolling.
- * Presets, materials, runs, parameters found, curves, help and many runs are lists. */
+/* A list: rows in columns, a filter that is typed, paging and scrolling.  The workbench
+ * uses it for presets, materials, runs, parameters, curves, help and many runs. */
 
 /* Navigation keys, whose meaning depends on the pane, dialog or list. */
 enum gb_action {
@@ -28,13 +28,13 @@ enum { GB_LIST_BOX_COLUMNS = 6 };
 struct gb_list_box_line {
     enum gb_style style;
     char *cell[GB_LIST_BOX_COLUMNS]; /* NULL: empty */
-    int ink[GB_LIST_BOX_COLUMNS];    /* style of a cell; -1: that of the row */
+    int ink[GB_LIST_BOX_COLUMNS];    /* style of a cell; -1: style of the row */
     char *whole;                     /* over all columns; NULL: the cells */
 };
 
 struct gb_list_box_column {
     const char *title;
-    int cols;   /* 0: all that the others leave */
+    int cols;   /* 0: the remaining width */
     bool right; /* aligned */
     bool tight; /* no blank after it */
 };
@@ -45,7 +45,7 @@ struct gb_list_box_look {
     struct gb_list_box_column column[GB_LIST_BOX_COLUMNS];
     enum gb_style head; /* of the titles */
     bool titled;        /* the first row has the titles */
-    const char *empty;  /* in place of an empty list; NULL: nothing */
+    const char *empty;  /* text of an empty list; NULL: nothing */
     enum gb_style empty_style;
     void (*write)(void *data, int item, struct gb_list_box_line *line);
 };
@@ -53,7 +53,7 @@ struct gb_list_box_look {
 struct gb_list_box {
     struct gb_prompt filter;
     int *item;      /* the items listed, in order; NULL: 0, 1, ...; owned */
-    int count;      /* of rows */
+    int count;      /* number of rows */
     int focus;      /* row */
     int top, page;  /* first row shown, and rows shown at the last draw */
     bool unfocused; /* rows only scroll */
@@ -64,33 +64,33 @@ void gb_list_box_finish(struct gb_list_box *list); /* zeroed is fine */
 /* Lists items 0 to count - 1. */
 void gb_list_box_set_count(struct gb_list_box *list, int count);
 
-/* Lists the items of `total` that the filter wants, highest rank first, 0: not listed.  The
- * focus goes to the first row.  words: of the filter, lower case, NULL at the end. */
+/* Lists those of the `total` items with a rank above 0, highest rank first, and focuses
+ * the first row. words: words of the filter in lower case, NULL at the end. */
 void gb_list_box_search(struct gb_list_box *list, int total,
                         int (*rank)(void *data, int item, char **words), void *data);
-/* Whether a text contains all words, ignoring case. */
+/* Does a text contain all words, ignoring case? */
 bool gb_list_box_matches(char **words, const char *text);
 
 /* The item in focus; -1: the list is empty. */
 int gb_list_box_focused(const struct gb_list_box *list);
 
-/* Moves the focus, or the rows, by rows. */
+/* Moves the focus, or scrolls, by a number of rows. */
 void gb_list_box_go(struct gb_list_box *list, int by);
-/* The same by a key; false: it moves nothing. */
+/* The same for a key; false: the key moves nothing. */
 bool gb_list_box_navigate(struct gb_list_box *list, enum gb_action action);
 
-/* Arrows and pages move, other keys edit the filter. */
+/* Handles a key: arrows and pages move, other keys edit the filter. */
 enum gb_list_box_event { GB_LIST_BOX_OTHER, GB_LIST_BOX_MOVED, GB_LIST_BOX_TYPED };
 enum gb_list_box_event gb_list_box_handle(struct gb_list_box *list,
                                           const struct gb_term_event *event);
 
-/* Draws the rows into the rectangle, of which the focused one is seen. */
+/* Draws the rows into the rectangle, so that the focused one is visible. */
 void gb_list_box_draw(struct gb_list_box *list, const struct gb_paint *paint,
                       const struct gb_list_box_look *look, void *data);
-/* The filter after its label. */
+/* Draws the filter after its label. */
 void gb_list_box_draw_filter(const struct gb_list_box *list, const struct gb_paint *paint,
                              int row, int col, const char *label);
-/* Cells of a column of the focused row, for an input line. */
+/* Cells of a column in the focused row, for an input line. */
 struct gb_rect gb_list_box_cell(const struct gb_list_box *list,
                                 const struct gb_paint *paint,
                                 const struct gb_list_box_look *look, int column);

@@ -8,7 +8,8 @@
 #include "tui/panel/panels.h"
 #include "tui/session/session.h"
 
-/* The pane of the parameters: which are listed, the next value of one, editing, drawing. */
+/* The pane of the parameters: which parameters are listed, the next value of a
+ * parameter, editing (typed, chosen, stepped, reverted), and drawing. */
 
 void gb_panel_params_list_init(struct gb_param_list *list, const struct gb_params *params,
                                bool all)
@@ -73,7 +74,7 @@ static bool step_number(const struct gb_field *field, const char *value, int dir
         return true;
     }
     const double step = number != 0.0 ? increment_of(number) : 0.01;
-    /* below 1 the steps are those of 0.9 */
+    /* below 1 the steps are smaller, so use the step just below the value */
     const double down = number != 0.0 ? increment_of(number * (1.0 - 1e-6)) : step;
     const double next = direction > 0 ? number + step : number - down;
     snprintf(text, size, "%.6g%s",
@@ -167,7 +168,7 @@ void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session 
     }
 }
 
-/* The text typed, or the choice shown. */
+/* The typed text, or the chosen value. */
 static const char *edited_text(struct gb_panel_params *panel)
 {
     const struct gb_field *field = gb_panel_params_field(panel);
@@ -195,7 +196,7 @@ static void step_choice(struct gb_panel_params *panel, int step)
     panel->choice = (panel->choice + step + count) % count;
 }
 
-/* Direction in which a key moves through the choices; 0: none. */
+/* Direction in which a key moves through the choices; 0: it does not. */
 static int choice_step(int code, enum gb_action action)
 {
     if (action == GB_ACTION_UP || action == GB_ACTION_LEFT) {
@@ -228,7 +229,7 @@ void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *
 
 /* Columns; the longest key of the field table has 16 characters. */
 enum { KEY_COL = 1, VALUE_COL = 18 };
-/* Width of the pane from which on the title explains r. */
+/* Width of the pane from which the title explains r. */
 enum { WIDE_COLS = 45 };
 
 const struct gb_field *gb_panel_params_field(const struct gb_panel_params *panel)
@@ -245,7 +246,7 @@ static struct gb_param_list listed(const struct gb_panel_params *panel,
     return list;
 }
 
-/* Keeps the focused line visible, and its heading where there is room. */
+/* Keeps the focused line visible, and its heading if there is room. */
 static void scroll(struct gb_panel_params *panel, const struct gb_param_list *list)
 {
     const int line = list->line[gb_panel_params_list_index(list, panel->focus)];

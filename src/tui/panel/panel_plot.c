@@ -13,14 +13,14 @@
 #include "tui/term/paint.h"
 #include "tui/view/views.h"
 
-/* The pane of the plot: ranges that are typed, the cursor over points, pressures or settings,
- * and the drawing of the present view. */
+/* The pane of the plot: typed ranges of the axes, the cursor over points, pressures or
+ * settings, and drawing the present view. */
 
-/* Names of the quantities as they are typed. */
+/* Names of quantities for typed ranges. */
 static const struct {
     const char *name;
     enum gb_dimension dimension;
-    double least; /* lowest value that is accepted */
+    double least; /* lowest valid value */
 } quantity[GB_PLOT_RANGES] = {
     [GB_PLOT_RANGE_PRESSURE] = {"p", GB_DIM_PRESSURE, 0.0},
     [GB_PLOT_RANGE_DENSITY] = {"rho", GB_DIM_NONE, 0.0},
@@ -41,7 +41,7 @@ static int find(const char *name, size_t length)
     return of;
 }
 
-/* An end; one without a unit has that of the other end. */
+/* Reads an end of a range.  An end without a unit has the unit of the other end. */
 static bool parse_end(int of, const char *text, const char *other, double *value,
                       struct gb_error *err)
 {
@@ -57,7 +57,7 @@ static bool parse_end(int of, const char *text, const char *other, double *value
            gb_error_set(err, GB_ERR_INPUT, "%s: %s", quantity[of].name, reason.text);
 }
 
-/* "10 MPa:500 MPa" */
+/* Reads "10 MPa:500 MPa". */
 static bool parse_range(struct gb_plot_range *range, int of, const char *text,
                         struct gb_error *err)
 {
@@ -82,7 +82,7 @@ static bool parse_range(struct gb_plot_range *range, int of, const char *text,
     return good;
 }
 
-/* Begin of the name in front of an equal sign; blanks between them do not count. */
+/* The name before an equal sign, without blanks between them. */
 static const char *name_before(const char *text, const char *equal, size_t *length)
 {
     while (equal > text && equal[-1] == ' ') {
@@ -96,7 +96,7 @@ static const char *name_before(const char *text, const char *equal, size_t *leng
     return equal;
 }
 
-/* One "name=low:high" from *at on, which goes to the next one. */
+/* Reads one "name=low:high" at *at and moves *at to the next one. */
 static bool parse_next(struct gb_plot_ranges *ranges, const char **at,
                        struct gb_error *err)
 {
@@ -224,10 +224,10 @@ static void panel_plot_cursor_move(struct gb_panel_plot *panel,
 
 enum { PAGE_SETTINGS = 10, DESCRIPTION = 160 };
 
-/* What the cursor moves over. */
+/* Rows over which the cursor moves. */
 struct rows {
-    size_t known;        /* how many */
-    const size_t *order; /* their rows; NULL: as they are */
+    size_t known;        /* number of rows */
+    const size_t *order; /* their order; NULL: unchanged */
     size_t first;        /* row of the first movement */
 };
 
@@ -256,7 +256,7 @@ static void go_to(struct gb_panel_plot *panel, const struct rows *rows, long lon
     panel->setting_on = panel->view;
 }
 
-/* Rank of a row; 0 for one that is not known. */
+/* Position of a row in the order; 0 for an unknown row. */
 static long long rank_of(const struct rows *rows, size_t row)
 {
     for (size_t k = 0; k < rows->known; k++) {
@@ -267,8 +267,8 @@ static long long rank_of(const struct rows *rows, size_t row)
     return 0;
 }
 
-/* The first movement shows the recommended setting, or the cheapest one; the weakest state
- * of the method in use. */
+/* Moves the cursor.  The first movement goes to the recommended setting of a chart or
+ * its cheapest one, or to the weakest state of the method in use. */
 static void move(struct gb_panel_plot *panel, const struct rows *rows, long long by)
 {
     const bool on = panel->setting_on == panel->view;
@@ -341,8 +341,8 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
     }
 }
 
-/* Distance in cells between a point of the curve and a cell of the field; only horizontal
- * where the y axis is not the pressure. */
+/* Distance in cells between a point of the curve and a cell; only horizontal if the y
+ * axis is not the pressure. */
 static double distance_to(const struct gb_panel_plot *panel,
                           const struct gb_session *session, const struct gb_point *point,
                           int row, int col)
@@ -362,7 +362,7 @@ void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
                                 const struct gb_session *session, int row, int col)
 {
     const struct gb_session_shown shown = gb_session_shown(session);
-    const int down = row - 1 - panel->plot.top; /* the plot begins at 1, 1 */
+    const int down = row - 1 - panel->plot.top; /* the plot starts at 1, 1 */
     const int right = col - 1 - panel->plot.left;
     double nearest = HUGE_VAL;
     if (!has_cursor(panel) || panel->view->abscissa >= GB_VIEW_OWN ||
@@ -372,7 +372,7 @@ void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
     for (size_t i = 0; i < shown.points; i++) {
         const double distance =
             distance_to(panel, session, gb_curve_at(shown.curve, i), down, right);
-        if (distance < nearest) { /* false for NaN */
+        if (distance < nearest) { /* never for NaN */
             nearest = distance;
             panel->cursor = i;
             panel->cursor_on = true;
@@ -381,7 +381,7 @@ void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
     }
 }
 
-/* "compress, 10.5 ns", "unload:100MPa". */
+/* Writes "compress, 10.5 ns" or "unload:100MPa". */
 static void write_point_label(const struct gb_session *session,
                               const struct gb_point *point, char *text, size_t size)
 {
@@ -580,7 +580,7 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 
 /* The cursor at a typed pressure. */
 
-/* The point where loading has reached the pressure; the last one before that. */
+/* The first point of loading at or above the pressure; if there is none, the last one. */
 static size_t point_at(const struct gb_session_shown *shown, double pressure_pa)
 {
     for (size_t i = 0; i < shown->points; i++) {
@@ -638,7 +638,8 @@ bool gb_panel_plot_settings_at(const struct gb_panel_plot *panel,
     return false;
 }
 
-/* INSET: size of a pane from which on contact laws are drawn below the curve. */
+/* Size of the pane from which contact laws are drawn below the curve, and their
+ * fraction. */
 enum { INSET_FROM_ROWS = 30, INSET_COLS = 50, INSET_SHARE = 3 };
 
 void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term,
@@ -725,7 +726,7 @@ static void write_title(const struct gb_panel_plot *panel,
              session->frozen ? ", view frozen" : "");
 }
 
-/* Text in the middle of an empty plot; a newline ends a line. */
+/* Writes text in the middle of an empty plot; a newline ends a line. */
 static void write_missing(struct gb_plot *plot, const char *missing)
 {
     char **lines = g_strsplit(missing, "\n", -1);
@@ -757,7 +758,7 @@ static bool draw_view(struct gb_panel_plot *panel, struct gb_plot *plot,
     return true;
 }
 
-/* Rows for the insets below the curve: a third, where that is enough. */
+/* Rows for the insets below the curve: a third, if that is enough. */
 static int inset_rows(const struct gb_panel_plot *panel, const struct gb_rect *rect)
 {
     return panel->view == gb_views_at(0) && rect->rows >= INSET_FROM_ROWS &&

@@ -1,3 +1,6 @@
+/* The panes of the state and of the events.  Quantities of the state are rows of a
+ * table with their names, format and importance; how many are shown depends on the size
+ * of the pane.  Above them are the progress of the run and the density at a pressure. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -25,7 +28,7 @@ static int scroll_max(const struct gb_panel_events *panel,
     return kept > panel->page ? (int)kept - panel->page : 0;
 }
 
-/* Rows of all lines from the newest down to this one. */
+/* Number of rows of the lines from the newest to this one. */
 static int total_rows(const struct gb_panel_events *panel, const struct gb_paint *paint,
                       const struct gb_session *session, int max)
 {
@@ -40,7 +43,8 @@ static int total_rows(const struct gb_panel_events *panel, const struct gb_paint
     return total;
 }
 
-/* The newest line at the bottom; a long one is wrapped, into half of the pane at most. */
+/* Draws the newest line at the bottom.  A long line is wrapped, up to half of the pane.
+ */
 void gb_panel_state_events_draw(struct gb_panel_events *panel,
                                 const struct gb_paint *paint,
                                 const struct gb_session *session,
@@ -103,36 +107,37 @@ void gb_panel_state_events_navigate(struct gb_panel_events *panel,
 
 /* The pane of the state: numbers as text, one row per quantity, and the columns. */
 
-/* What a quantity needs to be listed. */
+/* Condition for listing a quantity. */
 enum need { NOTHING, SOLID /* three dimensions */, LEGS /* loading.path */, SHEAR };
 
-/* When it has a value: from the first point on, after an evaluation, at once. */
+/* When a quantity has a value: from the first point, after an evaluation, at once. */
 enum from { POINT, EVALUATION, START };
 
-/* A quantity of the state pane: a row of a list below.  Names are for narrow and wide
- * columns; rank is its importance in panes that are too small for all, 0 the first. */
+/* A quantity of the state pane: a row of the lists below.  It has names for narrow and
+ * wide columns. rank is its importance if the pane is too small for all; 0 is the most
+ * important. */
 struct item {
     const char *brief, *name;
     int rank;
     void (*write)(const struct item *item, const struct gb_session_shown *shown,
                   char *text, size_t size);
-    size_t at;          /* its number in struct gb_snapshot, a double */
-    const char *format; /* of write_number and write_percent */
+    size_t at;          /* offset of its double in struct gb_snapshot */
+    const char *format; /* for write_number and write_percent */
     enum need need;
-    int component; /* of a shear: of the strain */
+    int component; /* of a shear strain */
     enum from from;
 };
 
 enum { ITEMS_MOST = 20 };
 
-/* The items that apply to a run, in the order of the columns and of importance. */
+/* The items that apply to a run, in the order of columns and of importance. */
 struct choice {
     const struct item *item[ITEMS_MOST];
     const struct item *by_rank[ITEMS_MOST];
     int count;
 };
 
-/* Numbers of the state pane; "-" for what is not finite. */
+/* Formatting of numbers; "-" if a value is not finite. */
 
 static double value_of(const struct item *item, const struct gb_session_shown *shown)
 {
@@ -141,7 +146,7 @@ static double value_of(const struct item *item, const struct gb_session_shown *s
     return value;
 }
 
-/* By a format of printf for one double. */
+/* Formats with a printf format for one double. */
 static void put_number(char *text, size_t size, const char *format, double value)
 {
     if (isfinite(value)) {
@@ -151,7 +156,7 @@ static void put_number(char *text, size_t size, const char *format, double value
     }
 }
 
-/* "812", "6.31 k", "12.3 M": three digits. */
+/* Writes "812", "6.31 k" or "12.3 M": three digits. */
 static void put_count(char *text, size_t size, double value)
 {
     static const char *const prefix[] = {"", "k", "M", "G", "T"};
@@ -166,7 +171,8 @@ static void put_count(char *text, size_t size, double value)
     snprintf(text, size, "%.*f%s%s", decimals, value, k > 0 ? " " : "", prefix[k]);
 }
 
-/* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
+/* Writes "31.2 aJ" or "214 fJ": three digits, with a prefix for values below one joule.
+ */
 static void write_energy(const struct item *item, const struct gb_session_shown *shown,
                          char *text, size_t size)
 {
@@ -187,7 +193,7 @@ static void write_energy(const struct item *item, const struct gb_session_shown 
     }
 }
 
-/* All four pressures in the unit of the largest, for comparison. */
+/* Writes a pressure in the unit of the largest of the four, so that they compare. */
 static void put_pressure(const struct gb_snapshot *now, double value, char *text,
                          size_t size)
 {
@@ -208,7 +214,7 @@ static void write_pressure(const struct item *item, const struct gb_session_show
     put_pressure(shown->now, value_of(item, shown), text, size);
 }
 
-/* Shear stresses have the sign of the shear, as in loading.path. */
+/* Writes a shear stress with the sign of the shear, as in loading.path. */
 static void write_stress(const struct item *item, const struct gb_session_shown *shown,
                          char *text, size_t size)
 {
@@ -242,7 +248,7 @@ static void write_nanoseconds(const struct item *item,
     put_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
 }
 
-/* Lengths, "24.1 um"; times, "40.6 us". */
+/* Writes lengths such as "24.1 um" and times such as "40.6 us". */
 static void put_unit(double value, enum gb_dimension dimension, char *text, size_t size)
 {
     if (isfinite(value)) {
@@ -352,7 +358,7 @@ static const struct item still_items[] = {
     {"elapsed", "elapsed time", 16, write_duration, AT(seconds), .from = START},
 };
 
-/* The residual of a dynamic run is the unbalanced force. */
+/* Dynamic runs: the residual is the unbalanced force. */
 static const struct item moving_items[] = {
     {"stage", "stage", 3, write_stage, .from = POINT},
     {"t", "simulated time", 2, write_nanoseconds, AT(now.time_s)},
@@ -377,7 +383,7 @@ static const struct item moving_items[] = {
     {"steps/s", "time steps/s", 12, write_rate, AT(evaluations_per_s)},
 };
 
-/* Of a die, before its first point: of the bed as it is now. */
+/* Dies before the first point: the present bed. */
 static const struct item filling_items[] = {
     {"in die", "particles in the die", 0, write_poured, .from = EVALUATION},
     {"height", "height of the powder", 1, write_length, AT(stage.height_m),
@@ -394,7 +400,7 @@ static const struct item filling_items[] = {
     {"elapsed", "elapsed time", 7, write_duration, AT(seconds), .from = START},
 };
 
-/* And at its points. */
+/* Dies from the first point on. */
 static const struct item die_items[] = {
     {"density", "relative density", 0, write_number, AT(now.density), "%.4f"},
     {"height", "height of the powder", 3, write_length, AT(now.height_m)},
@@ -439,7 +445,7 @@ static const struct list *list_of(const struct gb_session_shown *shown)
     return &still;
 }
 
-/* Some leg of the path strains or holds this component. */
+/* Does a leg of the path strain or hold this component? */
 static bool sheared(const struct gb_path *path, int component)
 {
     bool moved = false;
@@ -492,7 +498,7 @@ static struct choice choose(const struct gb_session *session)
     return choice;
 }
 
-/* Value of an item; "-" where there is none yet. */
+/* Writes the value of an item; "-" if there is none yet. */
 static void write_item(const struct item *item, const struct gb_session_shown *shown,
                        char *text, size_t size)
 {
@@ -504,10 +510,11 @@ static void write_item(const struct item *item, const struct gb_session_shown *s
     }
 }
 
-/* Width of a column from which on names are not abbreviated; least width of the bar. */
+/* Width of a column from which names are not abbreviated; least width of the bar. */
 enum { FULL_NAME_COLS = 30, BAR_MIN = 4 };
 
-/* Height of a pane that has a line for the density at a pressure, for that of replicas. */
+/* Heights of the pane from which the densities at a pressure and of replicas have a
+ * line. */
 enum { DENSITY_FROM_ROWS = 5, MEAN_FROM_ROWS = 4 };
 
 const char *gb_panel_state_word(enum gb_run_state state, const char *error,
@@ -549,7 +556,7 @@ bool gb_panel_state_stage(const struct gb_snapshot *now, enum gb_run_state state
     return (int)strlen(text) <= cols;
 }
 
-/* "done in 0.7 s", "stopped after 3:04"; of a live run only the state. */
+/* Writes "done in 0.7 s" or "stopped after 3:04"; only the state for a live run. */
 static void write_state(const struct gb_snapshot *now, const char *word, char *text,
                         size_t size)
 {
@@ -563,7 +570,8 @@ static void write_state(const struct gb_snapshot *now, const char *word, char *t
     }
 }
 
-/* " 45 %", " 45 % 0:12 left"; " 45 % estimating" where powder comes to rest when it does. */
+/* Writes " 45 %" or " 45 % 0:12 left"; " 45 % estimating" while the end cannot be
+ * predicted. */
 static void write_share(const struct gb_snapshot *now, double share, char *text,
                         size_t size)
 {
@@ -577,7 +585,7 @@ static void write_share(const struct gb_snapshot *now, double share, char *text,
                       : "");
 }
 
-/* The stage in place of the word "running". */
+/* Writes the stage instead of the word "running". */
 static void write_running_stage(const struct gb_snapshot *now, int cols, char *text,
                                 size_t size)
 {
@@ -587,7 +595,7 @@ static void write_running_stage(const struct gb_snapshot *now, int cols, char *t
     }
 }
 
-/* State, bar, percentage and time in one row, or the bar in a row of its own. */
+/* Draws state, bar, percentage and time in one row, or the bar in a row of its own. */
 static void draw_progress(const struct gb_paint *paint, const struct gb_session *session,
                           bool own_row)
 {
@@ -600,7 +608,8 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
         write_state(now, gb_panel_state_word(now->state, now->error.text, &style), state,
                     sizeof state);
     }
-    /* the last time step of a dynamic run ends slightly before or after its end time */
+    /* rounding may end the last time step of a dynamic run slightly before its end time
+     */
     const bool done = shown.curve != NULL && now->state == GB_RUN_DONE;
     const double share = done ? 1.0 : now->progress;
     const int inner = paint->rect.cols - 2;
@@ -657,7 +666,8 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
     }
 }
 
-/* What the density is of: the quick cell or the run, or the mean of replicas of the run. */
+/* Finds what the density belongs to: the quick cell, the run, or the mean of its
+ * replicas. */
 static bool find_row(const struct gb_session *session,
                      const struct gb_session_shown *shown, struct gb_pressure_row *row)
 {
@@ -679,7 +689,8 @@ static bool find_row(const struct gb_session *session,
     return found;
 }
 
-/* "(5 cells)", "(cell scatter)": what the error is, the longest of three that fits. */
+/* Writes the origin of the error, "(5 cells)" or "(cell scatter)": the longest form
+ * that fits. */
 static void write_origin(const struct gb_session *session,
                          const struct gb_pressure_row *row, double error, int cols,
                          char *text, size_t size)
@@ -702,9 +713,9 @@ static void write_origin(const struct gb_session *session,
 
 enum { DENSITY_TEXT = 128 };
 
-/* "rho(100 MPa) = 0.4062 +- 0.0064" and "(cell scatter)", the latter for a row of `cols`
- * columns behind the former, or of its own where it has no room there.  False: not
- * reached. */
+/* Writes "rho(100 MPa) = 0.4062 +- 0.0064" and "(cell scatter)".  The second text is
+ * for the same row if it fits into `cols` columns, else for a row of its own.  False:
+ * the pressure was not reached. */
 static bool write_density(const struct gb_session *session,
                           const struct gb_session_shown *shown, int cols,
                           char head[DENSITY_TEXT], char origin[DENSITY_TEXT])
@@ -743,7 +754,8 @@ static bool shows_density(const struct gb_paint *paint, const struct gb_session 
             row.kind == GB_PRESSURE_ROW_REPLICAS);
 }
 
-/* In a row, or in two where there is room for them; returns how many. */
+/* Draws the density in one row, or in two if there is room; returns the number of rows.
+ */
 static int draw_density(const struct gb_paint *paint, const struct gb_session *session,
                         const struct gb_session_shown *shown, int row, bool roomy)
 {

@@ -15,8 +15,8 @@
 
 struct gb_plot_view;
 
-/* The four panes.  Each draws into its rectangle and handles navigation keys while it has
- * the focus.  They read the run through the session only. */
+/* The four panes.  Each draws into its rectangle and handles navigation keys while it
+ * has the focus.  They access the run only through the session. */
 
 /* The message line. */
 struct gb_message {
@@ -24,11 +24,11 @@ struct gb_message {
     enum gb_style style;
 };
 
-/* --- parameters: panel_params.c, panel_params.c -------------------------------- */
+/* --- parameters: panel_params.c -------------------------------- */
 
 struct gb_panel_params {
     int focus; /* row of the field table */
-    bool all;  /* list parameters without effect on the scene, too */
+    bool all;  /* also list parameters without effect on the scene */
     int top;   /* first line shown */
     int page;  /* lines visible at the last draw */
     bool editing;
@@ -42,8 +42,8 @@ void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *
                               enum gb_action action);
 /* Switches the list between all parameters and those of the scene. */
 void gb_panel_params_list_all(struct gb_panel_params *panel, struct gb_message *message);
-/* Moves to a row of the field table; the list shows all parameters if the scene does not
- * use it. */
+/* Moves to a row of the field table.  If the scene does not use it, the list shows all
+ * parameters. */
 void gb_panel_params_go(struct gb_panel_params *panel, struct gb_session *session,
                         int field);
 
@@ -53,11 +53,11 @@ enum gb_panel_params_hit {
     GB_PANEL_PARAMS_VALUE
 };
 
-/* Focuses the parameter in a row of the pane; returns what is in the column. */
+/* Focuses the parameter in a row of the pane; returns what the column contains. */
 enum gb_panel_params_hit gb_panel_params_click(struct gb_panel_params *panel,
                                                struct gb_session *session, int row,
                                                int col);
-/* "contact.mu=0.1": the focused parameter, as edited. */
+/* Writes "contact.mu=0.1": the focused parameter as edited. */
 void gb_panel_params_assignment(const struct gb_panel_params *panel,
                                 struct gb_session *session, char *text, size_t size);
 /* Field of the focused parameter. */
@@ -66,33 +66,34 @@ const struct gb_field *gb_panel_params_field(const struct gb_panel_params *panel
 void gb_panel_params_describe(const struct gb_panel_params *panel,
                               struct gb_session *session, struct gb_message *message);
 
-/* A key while editing. */
+/* Handles a key while a value is edited. */
 void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
                               const struct gb_term_event *event,
                               struct gb_message *message);
-/* Sets a valid value.  One that conflicts with others is set with a warning, because the
- * others may be changed next.  False: not valid by itself, nothing is set. */
+/* Sets a valid value.  If it conflicts with other values it is set with a warning,
+ * because the user may change the others next.  False: the value itself is invalid and
+ * is not set. */
 bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field *field,
                               const char *text, struct gb_message *message);
-/* Parameters were changed: starts the quick cell, or warns of a conflict. */
+/* Call after a change of parameters: starts the quick cell, or warns about a conflict. */
 void gb_panel_params_edit_changed(struct gb_session *session, struct gb_message *message);
 /* Increases (1) or decreases (-1) the focused value and starts the quick cell. */
 void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session *session,
                                int direction, struct gb_message *message);
-/* Restores the value that the run uses. */
+/* Restores the value used by the run. */
 void gb_panel_params_edit_revert(struct gb_panel_params *panel,
                                  struct gb_session *session, struct gb_message *message);
-/* The parameters including the value being typed, if that is valid. */
+/* The parameters with the value being typed, if that is valid. */
 struct gb_params gb_panel_params_edit_params(struct gb_panel_params *panel,
                                              struct gb_session *session);
 
-/* --- plot: panel_plot.c, panel_plot.c, panel_plot.c ---------------------------------------- */
+/* --- plot: panel_plot.c ---------------------------------------- */
 
-/* Contact laws below the curve, if there is room. */
+/* Number of contact laws drawn below the curve, if there is room. */
 enum { GB_PANEL_INSETS = 2 };
 
 struct gb_plot_range {
-    bool typed; /* else automatic */
+    bool typed; /* false: automatic */
     double low, high;
 };
 
@@ -116,15 +117,15 @@ struct gb_panel_plot {
     bool utf8;   /* UTF-8, not ASCII only */
     bool pixels; /* the packing is a pixel image; its cells stay empty */
     enum gb_plot_glyphs glyphs;
-    struct gb_packing_look look; /* of the view of the packing */
+    struct gb_packing_look look; /* how the packing is shown */
     bool cursor_on;
     size_t cursor;                         /* point of the curve */
-    double at_pa;                          /* pressure that was typed; 0: none */
+    double at_pa;                          /* typed pressure; 0: none */
     const struct gb_plot_view *setting_on; /* view whose cursor is on; NULL: none */
-    size_t setting;               /* row of the chart, or of the stability, under it */
-    double unit_pa;               /* of the pressure axis */
-    struct gb_plot_ranges ranges; /* of axes, as typed */
-    struct gb_rect field;         /* the view's cells on the screen */
+    size_t setting;                        /* row under that cursor */
+    double unit_pa;                        /* unit of the pressure axis */
+    struct gb_plot_ranges ranges;          /* typed ranges of the axes */
+    struct gb_rect field;                  /* the view's cells on the screen */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
     struct gb_plot *target;  /* target of the current drawing: plot or an inset */
     struct gb_params edited; /* gb_panel_params_edit_params */
@@ -153,41 +154,42 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
 /* Moves the cursor to the point nearest to a cell of the pane. */
 void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
                                 const struct gb_session *session, int row, int col);
-/* panel_plot.c: puts the cursor at a pressure, in the view of pressure against
- * density where the present one has no pressure axis. */
+/* Puts the cursor at a pressure.  If the present view has no pressure axis, switches to
+ * the view of pressure against density. */
 void gb_panel_plot_pressure_set(struct gb_panel_plot *panel,
                                 const struct gb_session *session, double pressure_pa);
-/* Whether the cursor is at a typed pressure. */
+/* Is the cursor at a typed pressure? */
 bool gb_panel_plot_pressure_shown(const struct gb_panel_plot *panel);
-/* Density there of the first curve that has reached it; NaN: none. */
+/* Density of the first curve that has reached this pressure; NaN: none. */
 double gb_panel_plot_pressure_density(const struct gb_panel_plot *panel,
                                       const struct gb_session *session);
 
-/* The row under the cursor; false: none. */
+/* Row of the settings under the cursor; false: none. */
 bool gb_panel_plot_settings_at(const struct gb_panel_plot *panel,
                                const struct gb_session *session, size_t *row);
 /* x coordinate of a point in the view: relative density, ns or step. */
 double gb_panel_plot_cursor_x(const struct gb_panel_plot *panel,
                               const struct gb_session *session,
                               const struct gb_point *point);
-/* Whether there are values at the cursor. */
+/* Are there values at the cursor? */
 bool gb_panel_plot_cursor_shown(const struct gb_panel_plot *panel,
                                 const struct gb_session *session);
-/* Values at the cursor, or the misfit to the measured data, or the view's hint. */
+/* Describes the values at the cursor, or the misfit to the measured data, or the view's
+ * hint. */
 void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    struct gb_message *message);
 
-/* --- state: panel_state.c, panel_state.c -------------------------------------- */
+/* --- state: panel_state.c -------------------------------------- */
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          enum gb_paint_focus focus);
-/* "running" with a symbol; *style repeats the meaning as colour.  error: that of the
- * snapshot; a run that is done has not reached a goal where it is not empty. */
+/* "running" with a symbol; *style is its colour. error: text of the snapshot's error.
+ * A run that is done with an error has missed a goal. */
 const char *gb_panel_state_word(enum gb_run_state state, const char *error,
                                 enum gb_style *style);
-/* "filling 812 of 1751", or the stage alone where that is wider than cols: of a run in a die
- * that computes.  False: no stage, or no room. */
+/* Writes "filling 812 of 1751", or only the stage if that is wider than cols, for an
+ * active run in a die.  False: no stage, or no room. */
 bool gb_panel_state_stage(const struct gb_snapshot *now, enum gb_run_state state,
                           int cols, char *text, size_t size);
 
@@ -206,48 +208,49 @@ void gb_panel_state_events_navigate(struct gb_panel_events *panel,
                                     const struct gb_session *session,
                                     enum gb_action action);
 
-/* The next value of a parameter upwards (direction 1) or downwards (-1), as text of a
- * preset.  Numbers change by 4 to 10 % and keep their unit, choices are cyclic, a seed
- * changes by 1.  False: no next value (a text, a list, "auto").  The result may be out of
+/* The next value of a parameter upwards (1) or downwards (-1), as preset text.  Numbers
+ * change by 4 to 10 % and keep their unit, choices are cyclic, a seed changes by 1.
+ * False: there is no next value (a text, a list, "auto").  The result may be out of
  * range; gb_params_set checks it. */
 bool gb_panel_params_next_value(const struct gb_field *field, const char *value,
                                 int direction, char *text, size_t size);
 
 enum { GB_PARAM_LIST_MAX = 160 };
 
-/* The parameters that the pane lists, and their lines: those with an effect on the scene,
- * or all.  Every group has a heading, with a blank line before all but the first. */
+/* The parameters listed in the pane, with their lines: those with an effect on the
+ * scene, or all.  Every group has a heading, with a blank line before all but the
+ * first. */
 struct gb_param_list {
     int count;
     int field[GB_PARAM_LIST_MAX]; /* rows of the field table, ascending */
     int line[GB_PARAM_LIST_MAX];
-    bool first[GB_PARAM_LIST_MAX]; /* of its group: the heading is one line above */
+    bool first[GB_PARAM_LIST_MAX]; /* first of its group; the heading is one line above */
 };
 
 void gb_panel_params_list_init(struct gb_param_list *list, const struct gb_params *params,
                                bool all);
 
-/* Index in the list of a row of the field table; for a row that is not listed, of the
- * last listed one before it, or 0. */
+/* Index in the list of a row of the field table.  For a row that is not listed, the
+ * index of the last listed row before it, or 0. */
 int gb_panel_params_list_index(const struct gb_param_list *list, int field);
 
-/* Ranges of the axes that the user has typed, by the quantity on the axis. */
+/* Ranges of axes typed by the user, by the quantity on the axis. */
 
-/* "p=10 MPa:500 MPa rho=0.3:0.6"; a quantity that is not named is automatic.  Errors:
- * GB_ERR_INPUT, ranges are unchanged. */
+/* Reads "p=10 MPa:500 MPa rho=0.3:0.6"; quantities that are not named are automatic.
+ * Errors: GB_ERR_INPUT; the ranges do not change. */
 bool gb_panel_plot_ranges_parse(struct gb_plot_ranges *ranges, const char *text,
                                 struct gb_error *err);
-/* The text that sets them. */
+/* Writes the text that sets these ranges. */
 void gb_panel_plot_ranges_write(const struct gb_plot_ranges *ranges, char *text,
                                 size_t size);
 bool gb_panel_plot_ranges_any(const struct gb_plot_ranges *ranges);
 
-/* Whether a value is inside the typed range, or the axis is automatic. */
+/* Is a value inside the typed range, or is the axis automatic? */
 bool gb_panel_plot_ranges_inside(const struct gb_plot_ranges *ranges,
                                  enum gb_plot_range_of of, double value);
 
-/* Before gb_plot_axes: the ends of the x and y axis become the typed ones and are kept
- * exactly.  unit: of the axis, in that of the range. */
+/* Call before gb_plot_axes: sets the ends of the x and y axes to the typed ends, which
+ * are kept exactly. unit: unit of the axis, in the unit of the range. */
 void gb_panel_plot_ranges_x(const struct gb_plot_ranges *ranges, enum gb_plot_range_of of,
                             double unit, struct gb_plot *plot, double ends[2]);
 void gb_panel_plot_ranges_y(const struct gb_plot_ranges *ranges, enum gb_plot_range_of of,

@@ -1,3 +1,7 @@
+/* Plots in character cells.  A plot is an array of cells with a character and an ink;
+ * lines are drawn as dots of a raster with several dots per cell.  The file has the
+ * legend, bands, the raster with clipped lines, axes with ticks, and the drawing
+ * functions of plot.h. */
 #include "tui/panel/plot.h"
 
 #include <glib.h>
@@ -11,12 +15,10 @@
 #include "base/alloc.h"
 #include "tui/term/paint.h"
 
-/* Plots in character cells: axes, the raster of dots, bands, the legend. */
-
 /* A candidate position of the legend. */
 struct box {
-    int rows, columns; /* of entries */
-    int width;         /* of an entry */
+    int rows, columns; /* of the entries */
+    int width;         /* width of an entry */
     int row, col;
     int taken; /* occupied cells below it */
 };
@@ -39,7 +41,7 @@ static int taken(const struct gb_plot *plot, const struct box *box, int enough)
     return sum;
 }
 
-/* Moves the box to a position that covers fewer cells, if this one does. */
+/* Moves the box to a position if it covers fewer cells there. */
 static void try_position(const struct gb_plot *plot, struct box *box, int row, int col)
 {
     struct box there = *box;
@@ -51,8 +53,8 @@ static void try_position(const struct gb_plot *plot, struct box *box, int row, i
     }
 }
 
-/* First the corners top left and bottom right, mostly free of curves, then all
- * positions. */
+/* Finds a position: first the corners top left and bottom right, which curves mostly
+ * leave free, then all positions. */
 static void find_position(const struct gb_plot *plot, struct box *box)
 {
     const int bottom = plot->top + plot->field_rows - 1 - box->rows;
@@ -67,7 +69,7 @@ static void find_position(const struct gb_plot *plot, struct box *box)
     }
 }
 
-/* A box for the entries that covers nothing, in one to three columns; false: none. */
+/* Finds a box in one to three columns that covers nothing; false: none. */
 static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
 {
     for (box->columns = 1; box->columns <= 3; box->columns++) {
@@ -83,14 +85,14 @@ static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
     return false;
 }
 
-/* Columns of entries in the foot. */
+/* Number of columns of entries in the foot. */
 static int foot_columns(const struct gb_plot *plot, int width)
 {
     return MAX(1, (plot->cols + 2) / (width + 2));
 }
 
-/* Position of the entries: the foot if there is one, or a free area, or the box that
- * covers least.  Returns how many fit. */
+/* Places the entries: in the foot if there is one, in a free area, or in the box that
+ * covers least.  Returns the number of entries that fit. */
 static int arrange(const struct gb_plot *plot, struct box *box, int count)
 {
     if (plot->foot > 0) {
@@ -153,12 +155,12 @@ bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int
     return shown == count && box.taken == 0;
 }
 
-/* A corner of the band in dots of the field, from its top left corner. */
+/* A corner of the band, in dots from the top left corner of the field. */
 struct corner {
     double x, y;
 };
 
-/* On which side of the line a-b a point lies: the sign. */
+/* Sign of the side of the line a-b on which a point lies. */
 static double side_of(const struct corner *a, const struct corner *b, double x, double y)
 {
     return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
@@ -172,7 +174,7 @@ static bool in_triangle(const struct corner *a, const struct corner *b,
            (s[0] <= 0.0 && s[1] <= 0.0 && s[2] <= 0.0);
 }
 
-/* Dots per cell. */
+/* Number of dots per cell. */
 static int plot_raster_dots_x(enum gb_plot_glyphs glyphs)
 {
     return glyphs == GB_PLOT_BRAILLE ? 2 : 1;
@@ -228,7 +230,7 @@ static uint32_t glyph(enum gb_plot_glyphs glyphs, unsigned bits)
     return 0x2800 + code;
 }
 
-/* Whether a dot is one of the tone. */
+/* Does a dot belong to the tone of a band? */
 static bool is_of_tone(enum gb_plot_glyphs glyphs, int x, int y)
 {
     switch (glyphs) {
@@ -241,9 +243,9 @@ static bool is_of_tone(enum gb_plot_glyphs glyphs, int x, int y)
     }
 }
 
-/* Sets a dot of the field, from its top left corner, if it belongs to the even tone of a band:
- * a dot of four in braille, a light shade for each cell in blocks, and in ASCII a dot in every
- * second cell.  Cells with a line or a text stay. */
+/* Sets a dot, counted from the top left corner of the field, if it belongs to the even
+ * tone of a band: one dot of four in braille, a light shade per cell in blocks, and a
+ * dot in every second cell in ASCII.  Cells with a line or a text do not change. */
 static void plot_raster_tone(struct gb_plot *plot, int x, int y, int ink)
 {
     static const uint32_t light_shade = 0x2591;
@@ -262,7 +264,7 @@ static void plot_raster_tone(struct gb_plot *plot, int x, int y, int ink)
     cell->tone = true;
 }
 
-/* The part of the band between two of its points. */
+/* Fills the band between two of its points. */
 static void fill(struct gb_plot *plot, const struct corner corner[4], int ink)
 {
     const int last_x = plot->field_cols * plot_raster_dots_x(plot->glyphs) - 1;
@@ -298,7 +300,7 @@ void gb_plot_band(struct gb_plot *plot, const struct gb_plot_band *band)
     }
 }
 
-/* Dots of the field of a plot, and their characters. */
+/* The raster: dots of the field and their characters. */
 
 /* Sets a dot of the field, counted from its top left corner. */
 static void dot(struct gb_plot *plot, int x, int y, int ink)
@@ -424,16 +426,17 @@ static void plot_raster_column(struct gb_plot *plot, int col, double share, int 
     }
 }
 
-/* Decades shown below the largest value if the smallest one is not positive. */
+/* Decades below the largest value on a logarithmic axis if the smallest value is not
+ * positive. */
 static const double log_decades = 3.0;
 
-/* The smallest number 1, 2 or 5 x 10^k not below a step. */
+/* The smallest number 1, 2 or 5 x 10^k that is at least the step. */
 static double nice_step(double step)
 {
     const double decade = pow(10.0, floor(log10(step)));
     static const double nice[] = {1.0, 2.0, 5.0, 10.0};
     for (size_t i = 0; i < 4; i++) {
-        /* the tolerance keeps 0.2 when 2 x 0.1 rounds up */
+        /* the tolerance accepts 0.2 if 2 x 0.1 is rounded up */
         if (nice[i] * decade >= step * (1.0 - 1e-9)) {
             return nice[i] * decade;
         }
@@ -441,7 +444,7 @@ static double nice_step(double step)
     return 10.0 * decade;
 }
 
-/* Decimal digits where they are short, otherwise powers of ten. */
+/* Writes decimal digits if they are short, otherwise a power of ten. */
 static void write_tick(char *text, double value, double step)
 {
     const double size = fabs(value);
@@ -465,15 +468,16 @@ static void add_tick(struct gb_plot_axis *axis, double value, double step)
     }
 }
 
-/* Multiples of the step between two values. */
+/* Number of multiples of the step between two values. */
 static double steps_inside(const struct gb_plot_axis *axis, double step, double *first)
 {
     *first = ceil(axis->low / step - 1e-6);
     return floor(axis->high / step + 1e-6) - *first;
 }
 
-/* Ends are multiples of a fifth of a tick: whole ticks would leave up to half of a small
- * plot empty.  Fewer than two ticks would leave the scale undefined. */
+/* Fits a linear axis.  Its ends are multiples of a fifth of a tick, because whole ticks
+ * would leave up to half of a small plot empty.  There are at least two ticks, so that
+ * the scale is defined. */
 static void fit_linear(struct gb_plot_axis *axis, double low, double high, int max)
 {
     double step = nice_step((high - low) / (max > 2 ? max - 1 : 1));
@@ -491,7 +495,7 @@ static void fit_linear(struct gb_plot_axis *axis, double low, double high, int m
     }
 }
 
-/* The largest number 1, 2 or 5 x 10^k not above a value. */
+/* The largest number 1, 2 or 5 x 10^k that is at most the value. */
 static double nice_floor(double value)
 {
     const double decade = pow(10.0, floor(log10(value) + 1e-9));
@@ -506,8 +510,8 @@ static void add_log_tick(struct gb_plot_axis *axis, double value, double decade)
     }
 }
 
-/* Ticks at the decades: every second, third, ... where space is short; with 2 and 5
- * between them where there are few decades or enough space. */
+/* Ticks at the decades: every second, third, ... decade if space is short; also at 2
+ * and 5 if there are few decades or enough space. */
 static void fit_log(struct gb_plot_axis *axis, double low, double high, int max)
 {
     axis->low = nice_floor(low);
@@ -559,8 +563,8 @@ void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool l
     fit_linear(axis, low, high, max);
 }
 
-/* Ends a fitted axis exactly at these values, of which a low one without a logarithm is
- * ignored; at least two ticks remain, at the ends if need be. */
+/* Ends a fitted axis exactly at these values; a low end without a logarithm is ignored.
+ * At least two ticks remain, at the ends if necessary. */
 static void plot_axis_end(struct gb_plot_axis *axis, double low, double high)
 {
     const struct gb_plot_axis fitted = *axis;
@@ -798,7 +802,8 @@ uint32_t gb_plot_mark_char(const struct gb_plot *plot, int marker)
     return plot->glyphs == GB_PLOT_ASCII ? ascii_marks[marker] : wide_marks[marker];
 }
 
-/* Markers do not cover labels of the axes; the line shows the curve there. */
+/* Draws a marker unless it would cover a label of the axes; the line shows the curve
+ * there. */
 static void put_marker(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 {
     if (row < 0 || row >= plot->rows || col < 0 || col >= plot->cols) {
@@ -811,7 +816,7 @@ static void put_marker(struct gb_plot *plot, int row, int col, uint32_t ch, int 
     }
 }
 
-/* Markers at least `spacing` cells apart, and one at the last point. */
+/* Draws markers at least `spacing` cells apart, and one at the last point. */
 static void draw_markers(struct gb_plot *plot, const struct gb_plot_series *series)
 {
     const uint32_t ch = gb_plot_mark_char(plot, series->marker);
@@ -857,7 +862,7 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
     if (!(from >= 0.0 && to <= 1.0 && from <= to && top > 0.0)) {
         return;
     }
-    /* equal widths in cells for equal widths in x, with a gap of one column */
+    /* equal widths in x have equal widths in cells, with a gap of one column */
     const int width = MAX((int)floor((to - from) * plot->field_cols) - 1, 1);
     const int col = field_col(plot, from);
     const int end = MIN(col + width, plot->left + plot->field_cols);
@@ -866,7 +871,7 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
     }
 }
 
-/* Blanks of a text are not free. */
+/* Is a cell free?  Blanks within a text are not. */
 static bool is_free(const struct gb_plot *plot, int row, int col)
 {
     const struct gb_plot_cell *cell = &plot->cell[row * plot->cols + col];

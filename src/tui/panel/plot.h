@@ -28,18 +28,18 @@ struct gb_plot_cell {
     uint32_t ch; /* Unicode */
     int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
     bool fixed;  /* a marker or a text: lines pass behind it */
-    bool tone;   /* dots of a band alone: a line takes their place */
-    int back; /* of a shaded cell: 1 + shade of its background; 0: background of the terminal */
+    bool tone;   /* only dots of a band, which a line replaces */
+    int back; /* 1 + shade of the background of a cell; 0: background of the terminal */
 };
 
 struct gb_plot {
-    int rows, cols; /* of the whole picture */
-    int top, left;  /* of the field inside the axes */
+    int rows, cols; /* size of the whole picture */
+    int top, left;  /* position of the field inside the axes */
     int field_rows, field_cols;
     enum gb_plot_glyphs glyphs;
     bool log_x;            /* set before gb_plot_axes; cleared by gb_plot_resize */
-    bool exact_x, exact_y; /* axes end where they are asked to; as log_x */
-    int foot; /* rows for the legend below the axes; set and cleared as log_x */
+    bool exact_x, exact_y; /* axes end exactly at the given ends; set like log_x */
+    int foot;              /* rows for the legend below the axes; set like log_x */
     struct gb_plot_axis x, y;
     struct gb_plot_cell *cell; /* rows x cols */
     uint8_t *dots;             /* rows x cols: bits of the raster */
@@ -48,14 +48,15 @@ struct gb_plot {
 
 /* Fits an axis around data between low and high.
  *
- * most   how many ticks there is room for (at least 2)
- * log    falls back to linear when high is not positive; a low that is not positive
- * becomes three decades below high Never fails: equal or non-finite ends become an axis
- * from 0 to 1 or around the value. */
+ * most   number of ticks for which there is room (at least 2)
+ * log    linear if high is not positive; a low that is not positive becomes three
+ *        decades below high
+ * Never fails: equal or non-finite ends become an axis from 0 to 1 or around the value.
+ */
 void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
                       int max);
 
-/* 0 at low, 1 at high; NaN for values without a logarithm on a logarithmic axis. */
+/* 0 at low, 1 at high; NaN for a value without a logarithm on a logarithmic axis. */
 double gb_plot_axis_position(const struct gb_plot_axis *axis, double value);
 
 /* Meaning of a cell; gb_paint_plot assigns the colours. */
@@ -83,7 +84,7 @@ struct gb_plot_series {
     bool points; /* no line between the points */
 };
 
-/* The area between two lines of as many points.  NaN interrupts it. */
+/* The area between two lines with equal numbers of points.  NaN interrupts it. */
 struct gb_plot_band {
     const double *x[2], *y[2];
     size_t count;
@@ -100,43 +101,42 @@ struct gb_plot_entry {
 void gb_plot_init(struct gb_plot *plot);
 void gb_plot_finish(struct gb_plot *plot);
 
-/* Empties the plot and gives it a size; allocates only when it grows. */
+/* Empties the plot and sets its size; allocates only when it grows. */
 bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyphs glyphs,
                     struct gb_error *err);
 
-/* Axes, ticks and labels around the field; the ranges contain the given ends. */
+/* Draws axes, ticks and labels around the field.  The ranges contain the given ends. */
 void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
                   enum gb_plot_scale y_scale, const char *x_label, const char *y_label);
-/* No axes: the whole picture is the field (polar pictures). */
+/* Sets up a plot without axes: the whole picture is the field (polar pictures). */
 void gb_plot_bare(struct gb_plot *plot, const double x_ends[2], const double y_ends[2]);
 
 void gb_plot_line(struct gb_plot *plot, const struct gb_plot_series *series);
 
-/* A band as an even tone of few dots, in cells that are empty: draw it before the lines. */
+/* Draws a band as an even tone of few dots in empty cells; call it before drawing
+ * lines. */
 void gb_plot_band(struct gb_plot *plot, const struct gb_plot_band *band);
 
-/* A vertical bar from the bottom of the field. */
+/* Draws a vertical bar from the bottom of the field. */
 void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int ink);
 
-/* Cross hairs at a point, drawn into empty cells and over bands. */
+/* Draws cross hairs at a point, in empty cells and over bands. */
 void gb_plot_cursor(struct gb_plot *plot, double x, double y);
 
-/* Text inside the picture, UTF-8, at its edge cut with an ellipsis. */
+/* Writes UTF-8 text in the picture; at the edge it is cut with an ellipsis. */
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text);
 
-/* One character, drawn if inside the picture; lines do not overwrite it. */
+/* Draws one character if it is inside the picture; lines do not overwrite it. */
 void gb_plot_put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink);
 /* Character of a marker: 1.. a shape, larger numbers a letter. */
 uint32_t gb_plot_mark_char(const struct gb_plot *plot, int marker);
 
-/* plot.c */
-
-/* The legend, drawn after the lines: in the foot if there is one, or in a free area (top
- * left, bottom right or anywhere, in up to three columns), or where it covers least.  A
- * last line counts the entries that do not fit.  False when it covers something or is
- * incomplete. */
+/* Draws the legend; call it after the lines.  It is in the foot if there is one, or in
+ * a free area (top left, bottom right or anywhere, in up to three columns), or where it
+ * covers least.  A last line counts the entries that do not fit.  False: it covers
+ * something or is incomplete. */
 bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count);
-/* Rows of a foot for the entries; at most a third of the plot. */
+/* Number of rows of a foot for the entries; at most a third of the plot. */
 int gb_plot_legend_foot(const struct gb_plot *plot, const struct gb_plot_entry *entry,
                         int count);
 

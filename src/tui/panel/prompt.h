@@ -19,7 +19,8 @@ struct gb_prompt {
 /* Sets the text; the cursor is at its end. */
 void gb_prompt_set(struct gb_prompt *prompt, const char *text);
 
-/* The same, of an old value: the first character typed replaces it, other keys edit it. */
+/* The same for an old value: the first typed character replaces it, other keys edit it.
+ */
 void gb_prompt_offer(struct gb_prompt *prompt, const char *text);
 
 /* Handles a key or a character; false: not handled (Enter, Esc, Tab, ...). */
@@ -32,12 +33,13 @@ const char *gb_prompt_text(struct gb_prompt *prompt);
 void gb_prompt_draw(const struct gb_prompt *prompt, const struct gb_paint *paint, int row,
                     int col, int cols);
 
-/* Completes a path as a shell does: to the longest common prefix of all matching names; a
- * folder ends with a slash, "~/" is the home directory.  *count (may be NULL) receives
- * the number of matches.  g_free. */
+/* Completes a path like a shell, to the longest common prefix of all matching names.  A
+ * folder ends with a slash; "~/" is the home directory. *count (may be NULL) receives
+ * the number of matches. g_free. */
 char *gb_prompt_complete_path(const char *path, int *count);
 
-/* "~/x" with the home directory inserted; other paths unchanged.  g_free. */
+/* Replaces "~/" at the beginning by the home directory; other paths are unchanged.
+ * g_free. */
 char *gb_prompt_complete_home(const char *path);
 
 #endif

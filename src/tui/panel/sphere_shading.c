@@ -6,11 +6,13 @@
 
 #include "greenbody/snapshot.h"
 
-/* The packing as shaded spheres: colours, the walls of a die as outlines, the spheres. */
+/* The packing as shaded spheres.  The camera turns the packing, the walls of a die
+ * become outlines, and spheres are drawn in layers from back to front with a brightness
+ * that depends on depth, or the shade of a value. */
 
-/* How the view of the packing looks at it. */
+/* Camera and colouring of the view of the packing. */
 
-/* Share of the particles that the range covers. */
+/* Fraction of the particles that the colour range covers. */
 static const double covered = 0.95;
 
 void gb_sphere_shading_rotate(struct gb_packing_look *look, double azimuth_deg,
@@ -20,7 +22,7 @@ void gb_sphere_shading_rotate(struct gb_packing_look *look, double azimuth_deg,
     look->elevation_deg = fmin(fmax(look->elevation_deg + elevation_deg, -90.0), 90.0);
 }
 
-/* Values of a colour by particle; NULL for the depth. */
+/* Values of the particles for a colour; NULL for the depth. */
 static const float *packing_look_values(const struct gb_view_sample *sample,
                                         enum gb_packing_colour colour)
 {
@@ -46,12 +48,12 @@ static int compare(const void *a, const void *b)
 
 /* Camera of the view of a packing, and the walls of a die as lines. */
 struct die_outline_camera {
-    double centre[3];          /* the view turns around it */
+    double centre[3];          /* centre of rotation */
     double azimuth, elevation; /* of the viewer, rad */
     int rows, cols;
     double scale;       /* dots per diameter */
     double left, top;   /* dot of the centre */
-    double front, back; /* depths of the box, d */
+    double front, back; /* depths of the front and back of the box, d */
 };
 
 static void tilt(const struct die_outline_camera *camera, double right, double behind,
@@ -63,7 +65,7 @@ static void tilt(const struct die_outline_camera *camera, double right, double b
     seen[2] = behind * sine + up * cosine;
 }
 
-/* The same at azimuth 0: of what is round about the axis. */
+/* The same at azimuth 0, for what is round about the axis. */
 static void die_outline_round(const struct die_outline_camera *camera,
                               const double point[3], double seen[3])
 {
@@ -76,7 +78,7 @@ struct pen {
     float *shade;
 };
 
-/* A point of the silhouette: side 1 right, -1 left. */
+/* Moves the pen to a point of the silhouette: side 1 right, -1 left. */
 static void at(const struct pen *pen, double side, double radius, double height,
                double seen[3])
 {
@@ -119,8 +121,9 @@ const char *gb_sphere_shading_name(enum gb_packing_colour colour)
 
 enum { AROUND = 48 };
 
-/* In the axes of the viewer, from the centre: right, depth, up.  Returns the depth behind the
- * plane through the axis that faces the viewer, whatever the elevation. */
+/* Converts a point to the axes of the viewer, from the centre: right, depth, up.
+ * Returns the depth behind the plane through the axis that faces the viewer,
+ * independent of the elevation. */
 static double die_outline_see(const struct die_outline_camera *camera,
                               const double point[3], double seen[3])
 {
@@ -131,7 +134,8 @@ static double die_outline_see(const struct die_outline_camera *camera,
     return behind;
 }
 
-/* What the dots of a line say of its direction, for screens with a character a cell. */
+/* Value of the dots of a line for its direction, for screens with one character per
+ * cell. */
 static float sign_of(double across, double down)
 {
     if (fabs(across) < 0.4 * fabs(down)) {
@@ -186,8 +190,8 @@ static void circle(const struct pen *pen, double radius, double height)
     }
 }
 
-/* Side, floor, funnel and punch over the dots (sphere_shading.h). */
-/* Planes are circles, open ends are not drawn across. */
+/* Draws side, floor, funnel and punch over the dots (sphere_shading.h).  Planes are
+ * circles; open ends have no line across. */
 static void die_outline_draw(const struct die_outline_camera *camera,
                              const struct gb_view_sample *sample, float *shade)
 {
@@ -209,24 +213,24 @@ static void die_outline_draw(const struct die_outline_camera *camera,
     }
 }
 
-/* Direction to the light, from above, left and front; ambient is the light of the shadow
- * side, depth_floor the factor of the deepest layer. */
+/* Direction to the light, from above, left and front. ambient: light on the shadow
+ * side; depth_floor: factor of the deepest layer. */
 static const double light[3] = {-0.40, -0.76, 0.51};
 static const double ambient = 0.12;
 static const double depth_floor = 0.15;
 static const double depth_scale = 2.5; /* d */
 static const double margin = 0.5;      /* d, around the window */
 
-/* Spheres in the shade of a value: rim from this share of the radius on, where the radius has
- * some dots; shade of the rim, and of the least value, so that both differ from the
- * background. */
+/* Spheres in the shade of a value.  The dark rim begins at the fraction `rim` of the
+ * radius, if the radius has at least rim_reach dots.  The shades of the rim and of the
+ * least value differ from the background. */
 static const double rim = 0.8, rim_reach = 2.5;
 static const float least = 0.05F;
 
 /* Number of layers in depth. */
 enum { LAYERS = 256 };
 
-/* The range of what is seen, in the axes of the viewer. */
+/* Finds the extent of the visible part, in the axes of the viewer. */
 static void find_room(const struct gb_view_sample *sample,
                       struct die_outline_camera *camera, double room[3][2])
 {
@@ -299,7 +303,7 @@ struct picture {
     float *shade;
 };
 
-/* Of a value; a particle without one has the least. */
+/* Shade of a value.  A particle without a value has the least shade. */
 static float shade_of(const struct picture *picture, int i)
 {
     const double share = ((double)picture->value[i] - picture->range.low) /
@@ -307,8 +311,8 @@ static float shade_of(const struct picture *picture, int i)
     return share > 0.0 ? least + (1.0F - least) * (float)fmin(share, 1.0) : least;
 }
 
-/* Layers are drawn from the back to the front, so that nearer spheres cover farther ones
- * without a depth buffer. */
+/* Draws a sphere.  Layers are drawn from back to front, so nearer spheres cover farther
+ * ones without a depth buffer. */
 static void draw_sphere(const struct picture *picture, int i, const double seen[3])
 {
     const struct gb_view_sample *sample = picture->sample;
@@ -334,7 +338,7 @@ static void draw_sphere(const struct picture *picture, int i, const double seen[
     }
 }
 
-/* False: in front of the cut of a die. */
+/* Position of a particle as seen; false: in front of the cut of a die. */
 static bool see(const struct picture *picture, int i, double seen[3])
 {
     const struct gb_view_sample *sample = picture->sample;

@@ -27,10 +27,11 @@
 #include "study/chart.h"
 #include "tui/session/runset_view.h"
 
-/* Jobs in the background.  A job is a command of this program as a child process; what it
- * writes is read while it grows: moduli, the chart of settings, stability, replicas. */
+/* Jobs in the background.  A job is a command of this program as a child process.  The
+ * files that it writes are read while they grow: moduli, the chart of settings,
+ * stability, replicas. */
 
-/* Seconds between two readings, or ten times the duration of one, whichever is longer. */
+/* Seconds between two reads, or ten times the duration of a read if that is longer. */
 static const double reread_s = 1.0;
 static const double share = 10.0;
 
@@ -42,7 +43,7 @@ void gb_job_replicas_follow(struct gb_replica_band *band, const char *directory,
     band->params = *params;
 }
 
-/* An error of reading keeps the band shown: the next reading may succeed. */
+/* An error keeps the band on display, because the next read may succeed. */
 bool gb_job_replicas_refresh(struct gb_replica_band *band, bool at_once)
 {
     struct gb_runset_view fresh;
@@ -158,11 +159,11 @@ void gb_job_moduli_stop(struct gb_moduli_job *job, const struct gb_child_command
     }
 }
 
-/* A run that has ended has stored its last state. */
+/* A run that has ended has already stored its last state. */
 static void follow_store(struct gb_moduli_job *job, struct gb_runner *runner,
                          struct gb_child_command *child)
 {
-    if (job->waits_for != runner) { /* another run is shown */
+    if (job->waits_for != runner) { /* another run is on display */
         job->waits_for = NULL;
         return;
     }
@@ -177,7 +178,8 @@ static bool is_shown(const struct gb_moduli_job *job, const char *directory)
     return g_strcmp0(job->directory, directory) == 0;
 }
 
-/* An error of reading keeps what is shown: the next reading may succeed. */
+/* Reads the table.  An error keeps the data on display, because the next read may
+ * succeed. */
 static void moduli_job_read_table(struct gb_moduli_job *job, const char *directory)
 {
     GArray *states = g_array_new(FALSE, TRUE, sizeof(struct gb_moduli_state));
@@ -250,7 +252,7 @@ static bool stability_csv_fill(struct gb_stability_csv *out, const struct gb_tab
     return true;
 }
 
-/* Errors: GB_ERR_INPUT for another table, in one line. */
+/* Errors: GB_ERR_INPUT, one line, for another table. */
 static bool job_stability_read(struct gb_stability_csv **out, const char *path,
                                struct gb_error *err)
 {
@@ -309,7 +311,7 @@ bool gb_job_stability_apply(const struct gb_stability_csv *table, size_t i,
     return gb_params_assign(params, text, err);
 }
 
-/* A column; NULL if missing, err has the name. */
+/* Finds columns; NULL, and err with the name, if one is missing. */
 static bool find_columns(const struct gb_table *table, const char *const *names,
                          const double **column, size_t count, struct gb_error *err)
 {
@@ -367,7 +369,7 @@ static bool allocate(struct gb_chart_csv *chart, size_t rows, struct gb_error *e
            chart->front != NULL && chart->noise != NULL && chart->by_cost != NULL;
 }
 
-/* Whether row i is known: it has a cost and an error. */
+/* Is row i complete, with a cost and an error? */
 static bool job_chart_csv_is_known(const struct gb_chart_csv *chart, size_t i)
 {
     return chart->error[i] > 0.0 && chart->seconds[i] > 0.0;
@@ -480,7 +482,7 @@ bool gb_job_chart_runs(const struct gb_child_command *child)
            (strcmp(child->name, "chart") == 0 || strcmp(child->name, "stability") == 0);
 }
 
-/* An error of reading keeps what is shown. */
+/* Reads the table.  An error keeps the data on display. */
 static bool read_table(const struct gb_chart_job *job, const char *path,
                        struct gb_chart_csv **chart, struct gb_stability_csv **stability)
 {
@@ -500,7 +502,7 @@ static bool read_table(const struct gb_chart_job *job, const char *path,
     return true;
 }
 
-/* The file is replaced as a whole. */
+/* The file is always replaced as a whole. */
 bool gb_job_chart_refresh(struct gb_chart_job *job, struct gb_chart_csv **chart,
                           struct gb_stability_csv **stability)
 {
@@ -571,7 +573,7 @@ bool gb_job_start(struct gb_child_command *child, const char *name, const char *
     return true;
 }
 
-/* True: a complete line; the last one may lack its newline. */
+/* Reads output; true: a complete line.  The last line may lack its newline. */
 static bool read_line(struct gb_child_command *child)
 {
     char c = '\0';
@@ -605,8 +607,8 @@ void gb_job_stop(const struct gb_child_command *child)
     }
 }
 
-/* "12 of 40 runs, 0 failed, 3 min left", "1 of 3 states: ...", " 5 of 82  0.1 CPU s  fire,
- * ...": replaced by the next one. */
+/* Is this a progress line, which the next one replaces: "12 of 40 runs, 0 failed, 3 min
+ * left", "1 of 3 states: ...", " 5 of 82  0.1 CPU s  fire, ..."? */
 static bool is_progress(const char *line)
 {
     line += strspn(line, " ");
@@ -617,7 +619,7 @@ static bool is_progress(const char *line)
 
 static const char error_prefix[] = "greenbody: ";
 
-/* The reason of a failure, the last line of a command. */
+/* Is this the reason of a failure, the last line of a command? */
 static bool is_error(const char *line)
 {
     return g_str_has_prefix(line, error_prefix);
@@ -647,7 +649,7 @@ enum gb_child_command_event gb_job_poll(struct gb_child_command *child, char *te
                       sizeof child->progress);
             return GB_CHILD_COMMAND_PROGRESS;
         }
-        /* an error is part of the outcome */
+        /* an error line is part of the outcome */
         if (child->kind == GB_CHILD_COMMAND_LONG && !is_error(child->line)) {
             snprintf(text, size, "%s: %s", child->name, child->line);
             return GB_CHILD_COMMAND_OUTPUT;

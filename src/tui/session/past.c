@@ -9,8 +9,8 @@
 
 /* Parameter sets in the order of their changes, for undo and redo. */
 
-/* The title counts, too.  Copies are equal byte by byte; other sets are compared as
- * text. */
+/* Are two sets equal, including the title?  Copies are equal byte by byte; otherwise
+ * sets are compared as text. */
 static bool same(const struct gb_params *a, const struct gb_params *b)
 {
     return memcmp(a, b, sizeof *a) == 0 ||

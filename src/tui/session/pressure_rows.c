@@ -9,7 +9,7 @@
 #include "tui/session/previous.h"
 #include "tui/term/paint.h"
 
-/* Standard deviations of a difference that chance is taken to exceed no more: 5 %. */
+/* Largest number of standard deviations of a difference that counts as chance (5 %). */
 static const double verdict_deviations = 2.0;
 
 static const struct gb_pressure_value none = {NAN, NAN};
@@ -115,7 +115,7 @@ static double of_previous(const struct gb_previous_curve *previous, double press
     return NAN;
 }
 
-/* Points in any order: the nearest on either side of the pressure. */
+/* Nearest points on either side of the pressure, for points in any order. */
 struct neighbours {
     size_t below, above; /* count: none */
 };
@@ -215,7 +215,7 @@ enum gb_pressure_verdict gb_pressure_rows_verdict(const struct gb_pressure_row *
     return difference > limit ? GB_PRESSURE_VERDICT_BEYOND : GB_PRESSURE_VERDICT_WITHIN;
 }
 
-/* Whether the run, or without a run any previous curve or quick cell, has reached it. */
+/* Has the run reached the pressure, or without a run any previous curve or quick cell? */
 static bool reached(const struct gb_session *session, double pressure_pa)
 {
     struct gb_pressure_rows rows;

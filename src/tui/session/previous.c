@@ -1,3 +1,6 @@
+/* Previous curves of a session: their differences from the present parameters, their
+ * points, which are kept, and their colours and markers.  Also the shell command for
+ * the parameters on screen (gb_previous_command). */
 #include "tui/session/previous.h"
 
 #include <glib.h>
@@ -14,8 +17,6 @@
 #include "scene/loading_kind.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
-
-/* Differences between two sets of parameters, compared as text of a preset. */
 
 /* "p1-set2-38nm" if the preset is found by that name, otherwise its path. */
 static char *name_of(const char *path)
@@ -158,7 +159,7 @@ double gb_previous_curve_elapsed(int kind, const struct gb_point *point)
                                                 : (double)point->step;
 }
 
-/* Copies the branches of a curve one after the other, with NaN between them. */
+/* Copies the branches of a curve in sequence, with NaN between them. */
 static void copy_branches(struct gb_previous_curve *previous,
                           const struct gb_curve *curve, size_t count)
 {
@@ -242,8 +243,8 @@ int gb_previous_list_free_colour(const struct gb_session *session)
     return 0;
 }
 
-/* A colour for one more curve: the one that it had, or a free one, or that of the oldest
- * curve that is not pinned, which becomes dim. */
+/* A colour for another curve: the colour it had before, a free one, or the colour of
+ * the oldest curve that is not pinned, which becomes dim. */
 static int take_colour(struct gb_session *session, int before)
 {
     if (before > 0 && !has_colour(session, before)) {
@@ -272,8 +273,8 @@ static void make_room(struct gb_session *session)
     gb_previous_list_delete(session, oldest);
 }
 
-/* Label of a new previous curve: the run keeps its own, a quick cell that of a pinned
- * curve of the same cell, which it replaces. */
+/* Label of a new previous curve.  A run keeps its label.  A quick cell takes the label
+ * of a pinned curve of the same cell, which it replaces. */
 static struct gb_curve_label take_label(struct gb_session *session,
                                         const struct gb_params *params, bool quick)
 {

@@ -11,15 +11,15 @@
 
 enum { GB_PARAMS_DIFF_TEXT = 96 };
 
-/* Whether both have the same value of a field. */
+/* Do both have the same value of a field? */
 bool gb_previous_diff_same(const struct gb_params *a, const struct gb_params *b,
                            const struct gb_field *field);
 
-/* Number of different fields, the title excepted. */
+/* Number of fields that differ, except the title. */
 int gb_previous_diff_count(const struct gb_params *a, const struct gb_params *b);
 
-/* "mu 0.1, alpha 0.24": the different values of `own`, or "same parameters".  Returns
- * text. */
+/* Writes "mu 0.1, alpha 0.24": the values of `own` that differ, or "same parameters".
+ * Returns text. */
 char *gb_previous_diff_text(const struct gb_params *own, const struct gb_params *other,
                             char *text, size_t size);
 
@@ -44,13 +44,13 @@ enum { GB_SESSION_PREVIOUS = 6 };
 
 enum { GB_CURVE_NAME = 40, GB_CURVE_COLOURS = 5 /* besides that of the run */ };
 
-/* How a curve is called and drawn; a run keeps it when it is shown again. */
+/* Name and style of a curve.  A run keeps them when it is shown again. */
 struct gb_curve_label {
     char marker;              /* 'a', 'b', ...: marker in the plot; 0: none yet */
     int colour;               /* 1 to GB_CURVE_COLOURS; 0: dim */
     bool pinned;              /* stays among the previous curves */
     bool hidden;              /* not drawn and in no table */
-    char name[GB_CURVE_NAME]; /* given by the user; "": its differences are its name */
+    char name[GB_CURVE_NAME]; /* given by the user; "": named by its differences */
 };
 
 /* Label of the run (-1) or of a previous curve. */
@@ -64,37 +64,37 @@ struct gb_previous_curve {
     char difference[GB_PARAMS_DIFF_TEXT]; /* its different values */
     size_t count;
     double *density, *pressure_pa; /* NaN between branches */
-    bool *loading;                 /* no unloading branch */
+    bool *loading;                 /* point of the loading branch */
     double *elapsed;               /* gb_previous_curve_elapsed of the points */
 };
 
-/* Its name, or else its differences. */
+/* The name of a curve, or its differences if it has none. */
 const char *gb_previous_list_name(const struct gb_previous_curve *previous);
 
-/* Whether a curve is drawn; hide: those that are not pinned are hidden. */
+/* Is a curve drawn? hide: curves that are not pinned are hidden. */
 bool gb_previous_list_shown(const struct gb_previous_curve *previous, bool hide);
 /* The first colour from 1 up that no shown curve has; 0: none. */
 int gb_previous_list_free_colour(const struct gb_session *session);
 
-/* Adds the curve of a run or quick cell, unless it has fewer than two points or memory is
- * short.  The oldest one that is not pinned makes room.  A pinned curve of the same quick
- * cell is replaced. */
+/* Adds the curve of a run or quick cell, unless it has fewer than two points or memory
+ * is short.  The oldest curve that is not pinned makes room.  A pinned curve of the
+ * same quick cell is replaced. */
 void gb_previous_list_keep(struct gb_session *session, const struct gb_params *params,
                            const struct gb_runner *runner, enum gb_session_cell cell);
 /* Updates the differences of the curves to these parameters. */
 void gb_previous_list_describe(struct gb_session *session,
                                const struct gb_params *params);
-/* The run or quick cell of these parameters is on display and no longer a previous one;
- * pinned curves of quick cells stay. */
+/* Removes the previous curve with these parameters, because its run or quick cell is on
+ * display again.  Pinned curves of quick cells stay. */
 void gb_previous_list_forget(struct gb_session *session, const struct gb_params *params,
                              bool quick);
 void gb_previous_list_delete(struct gb_session *session, int index);
 
-/* Pins or unpins the run (-1) or a previous curve.  False: GB_PREVIOUS_PINNED are pinned
- * already, so that the last run always has a place. */
+/* Pins or unpins the run (-1) or a previous curve.  False: GB_PREVIOUS_PINNED curves
+ * are pinned already; one place is kept for the last run. */
 enum { GB_PREVIOUS_PINNED = GB_SESSION_PREVIOUS - 1 };
 bool gb_previous_list_pin(struct gb_session *session, int index, bool pinned);
-/* A curve shown again takes a colour that is free. */
+/* Hides or shows a curve.  A curve that is shown again takes a free colour. */
 void gb_previous_list_hide(struct gb_session *session, int index, bool hidden);
 
 /* Copies the first `count` points; false: out of memory. */

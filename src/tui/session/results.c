@@ -24,10 +24,8 @@
 #include "tui/session/session.h"
 #include "tui/term/pixels.h"
 
-/* Results of jobs as cards of a few lines.  A kind of result is a function that fills the
- * card, and a row of the table at the end. */
-
-/* What a job in the background has found, as a few lines. */
+/* Results of jobs as cards of a few lines.  Each kind of result is a function that
+ * fills the card, and a row of the table at the end. */
 
 static void clear_line(void *data)
 {
@@ -39,7 +37,7 @@ static void clear_value(void *data)
     g_free(((struct gb_result_value *)data)->text);
 }
 
-/* path: NULL: none. */
+/* path may be NULL. */
 static void results_card_init(struct gb_result_card *card,
                               const struct gb_result_kind *kind, const char *path)
 {
@@ -75,7 +73,7 @@ static void results_card_add(struct gb_result_card *card, enum gb_result_role ro
     g_array_append_val(card->lines, line);
 }
 
-/* The value of a field in params becomes one that Enter sets. */
+/* Offers the value of a field in params, which Enter then sets. */
 static void results_card_offer(struct gb_result_card *card, const struct gb_field *field,
                                const struct gb_params *params)
 {
@@ -118,7 +116,7 @@ bool gb_results_card_use(const struct gb_result_card *card, struct gb_params *pa
 
 /* What the cards show, by file; as gb_result_kind.fill. */
 
-/* Whether row i has the least margin of its method. */
+/* Has row i the least margin of its method? */
 static bool is_least(const struct gb_stability_csv *table, size_t i)
 {
     for (size_t k = 0; k < table->count; k++) {
@@ -142,7 +140,7 @@ static void add_method(struct gb_result_card *card, const struct gb_stability_cs
         table->margin[i], table->p_mpa[i]);
 }
 
-/* results.c: the least margin of each method, with its pressure. */
+/* The least margin of each method, with its pressure. */
 static bool results_stability_fill(struct gb_result_card *card,
                                    const struct gb_session *session)
 {
@@ -165,7 +163,7 @@ static bool results_stability_fill(struct gb_result_card *card,
     return true;
 }
 
-/* Those of the table of densities, and the last one reached. */
+/* Pressures of the table of densities; the last one that was reached is added. */
 static const double wanted_pa[] = {10e6, 50e6, 100e6, 500e6};
 
 static void add_density(struct gb_result_card *card,
@@ -196,7 +194,7 @@ static bool is_level(const struct gb_runset_view *runset, size_t level,
     return fabs(runset->level_pa[level] / pressure_pa - 1.0) < 1e-6;
 }
 
-/* What --until-se asked for. */
+/* Adds the target of --until-se. */
 static void add_target(struct gb_result_card *card, const struct gb_replica_band *band,
                        const struct gb_runset_view_group *group)
 {
@@ -221,7 +219,7 @@ static void add_missing(struct gb_result_card *card, const struct gb_runset_view
     }
 }
 
-/* results.c: mean densities with intervals, cells that failed. */
+/* Mean densities with intervals, cells that failed. */
 static bool results_replicas_fill(struct gb_result_card *card,
                                   const struct gb_session *session)
 {
@@ -254,7 +252,7 @@ static double value_of(const struct gb_moduli_state *state, const char *column)
     return gb_moduli_table_mean(state, gb_moduli_table_find(column));
 }
 
-/* Where a linear law is wrong. */
+/* Adds the range of strain in which a linear law holds. */
 static void add_range(struct gb_result_card *card, const struct gb_moduli_state *state)
 {
     const double range = value_of(state, "elastic_range");
@@ -272,7 +270,7 @@ static void add_range(struct gb_result_card *card, const struct gb_moduli_state 
     }
 }
 
-/* results.c: averages and constants of the last state. */
+/* Averages and constants of the last state. */
 static bool results_moduli_fill(struct gb_result_card *card,
                                 const struct gb_session *session)
 {
@@ -307,8 +305,8 @@ static bool results_moduli_fill(struct gb_result_card *card,
     return true;
 }
 
-/* Equations whose AICc differs by less are not told apart. Source: K. P. Burnham,
- * D. R. Anderson, Sociol. Methods Res. 33, 261 (2004). */
+/* Equations whose AICc differs by less cannot be distinguished.  Source: K.  P.
+ * Burnham, D.  R.  Anderson, Sociol.  Methods Res. 33, 261 (2004). */
 static const double delta_alike = 2.0;
 
 enum { OTHERS = 2 };
@@ -340,7 +338,7 @@ static void add_yield(struct gb_result_card *card, const struct gb_compaction_fi
     }
 }
 
-/* What the fit is worth beside the others. */
+/* Compares the fit with the others. */
 static void add_ranking(struct gb_result_card *card,
                         const struct gb_compaction_fits *fits)
 {
@@ -362,7 +360,7 @@ static void add_ranking(struct gb_result_card *card,
     }
 }
 
-/* results.c: parameters of the best equation with intervals, what it is compared
+/* Parameters of the best equation with intervals, what it is compared
  * with. */
 static bool results_fit_fill(struct gb_result_card *card,
                              const struct gb_session *session)
@@ -383,7 +381,7 @@ static bool results_fit_fill(struct gb_result_card *card,
     return true;
 }
 
-/* results.c: size of the picture; pages and files of the report. */
+/* Size of the picture; pages and files of the report. */
 static bool results_files_picture(struct gb_result_card *card,
                                   const struct gb_session *session)
 {
@@ -410,7 +408,8 @@ static bool results_files_picture(struct gb_result_card *card,
     return true;
 }
 
-/* Files of a folder with this ending; *first: the first of them by name, g_free. */
+/* Number of files in a folder with this ending; *first: the first of them by name,
+ * g_free. */
 static int count_files(const char *folder, const char *ending, char **first)
 {
     int count = 0;
@@ -459,7 +458,7 @@ static bool results_files_report(struct gb_result_card *card,
 
 enum { DESCRIPTION = 160 };
 
-/* The fields that the setting changes. */
+/* Offers the fields that the setting changes. */
 static void offer_changes(struct gb_result_card *card, const struct gb_session *session)
 {
     size_t count = 0;
@@ -493,7 +492,7 @@ static void add_chosen(struct gb_result_card *card, const struct gb_chart_csv *c
     }
 }
 
-/* results.c: the recommended setting, its error and cost. */
+/* The recommended setting, its error and cost. */
 static bool results_chart_fill(struct gb_result_card *card,
                                const struct gb_session *session)
 {
@@ -517,7 +516,7 @@ static bool results_chart_fill(struct gb_result_card *card,
 
 enum { BYTES_MAX = 1 << 20 };
 
-/* The lines that the command prints. */
+/* Reads the lines printed by the command. */
 static bool read_lines(struct gb_result_card *card)
 {
     char *text = NULL;
@@ -539,7 +538,7 @@ static bool read_lines(struct gb_result_card *card)
     return good;
 }
 
-/* The keys of calibration.csv, with their values in calibrated.ini. */
+/* Offers the keys of calibration.csv with their values from calibrated.ini. */
 static void offer_values(struct gb_result_card *card)
 {
     struct gb_table *table = NULL;
@@ -561,7 +560,7 @@ static void offer_values(struct gb_result_card *card)
     g_free(csv);
 }
 
-/* results.c: values with intervals, correlations, what the data cannot tell. */
+/* Values with intervals, correlations, what the data cannot tell. */
 static bool results_calibration_fill(struct gb_result_card *card,
                                      const struct gb_session *session)
 {
@@ -579,7 +578,8 @@ static bool is_current(const struct gb_compaction_cache *cache,
            cache->first == gb_curve_at(curve, 0)->density;
 }
 
-/* The loading branch as arrays (MPa, density); D0: density of the last point before. */
+/* Copies the loading branch to arrays (MPa, density).  D0: density of the last point
+ * before it. */
 static size_t take_loading(const struct gb_curve *curve, size_t points, double *pressure,
                            double *density, double *initial)
 {

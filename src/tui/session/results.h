@@ -30,8 +30,8 @@ struct gb_session;
 struct gb_result_kind {
     const char *job;   /* name of the child command; NULL: none */
     const char *title; /* "calibration" */
-    const char *use;   /* what Enter does where the card has values */
-    /* Fills a card without lines from the files of a job, or from the session; false: there
+    const char *use;   /* what Enter does if the card has values */
+    /* Fills an empty card from the files of a job, or from the session.  False: there
      * is no result. */
     bool (*fill)(struct gb_result_card *card, const struct gb_session *session);
 };
@@ -41,16 +41,17 @@ struct gb_result_card {
     GArray *lines;                     /* struct gb_result_line */
     GArray *values;                    /* struct gb_result_value; empty: nothing to use */
     char *path;                        /* of the result: a file or a directory */
-    char *page;                        /* what is opened elsewhere; NULL: path */
+    char *page;                        /* file opened in another program; NULL: path */
     char *picture;                     /* PNG that a terminal can show; NULL: none */
 };
 
-/* Equations of compaction fitted to the curve on display; fitted again only when it has
- * grown: linear intervals while a run is live (about 1 ms), profiles once it has ended. */
+/* Compaction equations fitted to the curve on display.  They are fitted again only when
+ * the curve has grown: with linear intervals during a run (about 1 ms), with profiles
+ * after its end. */
 struct gb_compaction_cache {
     const struct gb_curve *curve; /* NULL: nothing fitted yet */
     size_t points;
-    double first; /* density of the first point: another curve may have the address */
+    double first; /* density of the first point: detects another curve at the address */
     enum gb_compaction_intervals intervals;
     bool fitted; /* else: reason */
     struct gb_error reason;
@@ -68,21 +69,21 @@ struct gb_results {
 
 void gb_results_finish(struct gb_results *results); /* zeroed is fine */
 
-/* The result of a job that has ended well, by its name and the path of its result; a job
- * without a row leaves all as it is. */
+/* Takes the result of a successful job, by its name and the path of its result.
+ * Nothing changes for a job without a row. */
 void gb_results_take(struct gb_results *results, const struct gb_session *session,
                      const char *job, const char *path);
 /* Makes the card of a kind from what the session shows; false: there is no result. */
 bool gb_results_make(struct gb_results *results, const struct gb_session *session,
                      enum gb_results_kind kind);
 
-/* Whether a job has ended since the last call. */
+/* Has a job ended since the last call? */
 bool gb_results_take_news(struct gb_results *results);
 
 /* The card that is `back` older than the newest; NULL: none. */
 const struct gb_result_card *gb_results_at(const struct gb_results *results, int back);
 
-/* Fits the first `points` points of a curve, unless that is done; true if there are fits
+/* Fits the first `points` points of a curve unless it was done; true if there are fits
  * to show. */
 bool gb_results_fits_update(struct gb_compaction_cache *cache,
                             const struct gb_curve *curve, size_t points,
@@ -97,17 +98,17 @@ struct gb_result_line {
     char *text;
 };
 
-/* A parameter as the result would set it. */
+/* A parameter that the result offers to set. */
 struct gb_result_value {
     const struct gb_field *field;
     char *text; /* as in a preset */
 };
 
-/* All lines and the path, as copied; g_free. */
+/* All lines and the path, for the clipboard; g_free. */
 char *gb_results_card_text(const struct gb_result_card *card);
 
-/* Sets the values that the card offers; told receives "contact.mu = 0.28, ...", g_free.
- * Errors: GB_ERR_INPUT; params is untouched then, and told is NULL. */
+/* Sets the values offered by the card. told receives "contact.mu = 0.28, ...", g_free.
+ * Errors: GB_ERR_INPUT; params does not change then, and told is NULL. */
 bool gb_results_card_use(const struct gb_result_card *card, struct gb_params *params,
                          char **told, struct gb_error *err);
 

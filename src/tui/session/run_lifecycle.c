@@ -21,10 +21,11 @@
 #include "scene/loading_kind.h"
 #include "tui/session/session.h"
 
-/* A run from its start to the end of the program: its cost, its directory, who continues it. */
+/* A run from its start to the end of the program: its estimated cost, its directory,
+ * and which process continues it. */
 
-/* Cheaper parameters for the stage that takes most.  A longer time step shortens every
- * stage, and auto may be longer than a given one. */
+/* Suggests cheaper parameters for the stage that takes most time.  A longer time step
+ * shortens every stage; auto may be longer than a given step. */
 static void write_advice(const struct gb_params *params, const struct gb_cost *cost,
                          char *text, size_t size)
 {
@@ -163,15 +164,15 @@ void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *m
     session->attached = NULL;
 }
 
-/* Does the screen show the run of another process?  An attached screen may have started a
- * run of its own. */
+/* Does the screen show the run of another process?  An attached screen may have started
+ * a run of its own. */
 static bool shows_other(const struct gb_session *session)
 {
     return session->attached != NULL && session->runner != NULL &&
            g_strcmp0(gb_runner_directory(session->runner), session->attached) == 0;
 }
 
-/* How the engines of this process end. */
+/* Describes what quitting does to the engines of this process. */
 static char *describe_end(const struct gb_session *session)
 {
     const bool runs = gb_session_run_is_live(session) && !shows_other(session);
@@ -198,7 +199,7 @@ gb_run_lifecycle_detaching(const struct gb_session *session)
                : GB_DETACH_NOTHING;
 }
 
-/* In the child: a session without terminal, and no signal blocked. */
+/* In the child: starts a session without a terminal and unblocks all signals. */
 static void leave_terminal(gpointer data)
 {
     sigset_t none;
@@ -280,7 +281,7 @@ int gb_run_lifecycle_run_detached(struct gb_session *session)
         return STATUS_SIGNAL + SIGHUP;
     }
     gb_session_note(session, "terminal closed; the run continues");
-    if (session->pause_wanted) { /* without a terminal no key can end the pause */
+    if (session->pause_wanted) { /* without a terminal nobody can end the pause */
         gb_session_toggle_pause(session);
     }
     while (gb_session_live(session)) {

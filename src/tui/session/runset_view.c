@@ -17,7 +17,10 @@
 #include "measure/average.h"
 #include "scene/field/field.h"
 
-/* Files of a directory of many runs. */
+/* Reads the summary of a directory of many runs for the screen.  The first part finds
+ * the run directories and reads the tables of sweeps and calibrations.  The second part
+ * averages the replicas of each group at a set of pressure levels and finds the varied
+ * keys. */
 
 static bool has_file(const char *directory, const char *name)
 {
@@ -55,8 +58,8 @@ static GPtrArray *list_runs(const char *directory)
     return list;
 }
 
-/* Paths of the run directories in a directory, or in its folder `runs` (calibrations), by
- * name.  g_ptr_array_free. */
+/* Paths of the run directories in a directory, or in its folder `runs` (calibrations),
+ * by name. g_ptr_array_free. */
 static GPtrArray *runset_files_list(const char *directory)
 {
     GPtrArray *list = list_runs(directory);
@@ -80,7 +83,7 @@ bool gb_runset_view_any(const char *directory)
     return is;
 }
 
-/* Lines of a CSV table without comments, the header first; g_strfreev. */
+/* Lines of a CSV table without comments, header first; g_strfreev. */
 static char **read_lines(const char *directory, const char *name)
 {
     char *path = g_build_filename(directory, name, NULL);
@@ -104,8 +107,8 @@ static char **read_lines(const char *directory, const char *name)
     return (char **)g_ptr_array_free(lines, FALSE);
 }
 
-/* Index of a name among cells, counted from the last one: values of keys before it may contain
- * commas; 0: none. */
+/* Index of a name among cells, counted from the last one, because values of earlier
+ * keys may contain commas; 0: none. */
 static guint index_from_end(char **cells, const char *name)
 {
     const guint count = g_strv_length(cells);
@@ -127,8 +130,8 @@ static bool has_pressure(const double *pa, size_t count, double wanted)
     return false;
 }
 
-/* Pressures at which the table of a sweep is read on loading, Pa; returns their number, at
- * most `most`; 0 without a table. */
+/* Pressures in the table of a sweep on loading, Pa.  Returns their number, at most
+ * `most`; 0 without a table. */
 static size_t runset_files_pressures(const char *directory, double *pa, size_t most)
 {
     size_t count = 0;
@@ -177,7 +180,7 @@ static void add_lines(GPtrArray *lines, const char *directory, const char *name)
     g_strfreev(rows);
 }
 
-/* Lines of the result and of the rounds of a calibration; NULL for other directories.
+/* Lines with the result and the rounds of a calibration; NULL for other directories.
  * g_strfreev. */
 static char **runset_files_fit(const char *directory)
 {
@@ -220,7 +223,7 @@ static void read_states(struct gb_runset_view *runset, GPtrArray *list)
                           "does it again",
                           sizeof run->error);
             }
-        } else if (err.code == GB_ERR_INPUT) { /* and not one without a status yet */
+        } else if (err.code == GB_ERR_INPUT) { /* unlike a run without a status yet */
             run->state = GB_RUN_STOPPED;
             g_strlcpy(run->error, err.text, sizeof run->error);
         }
@@ -232,7 +235,7 @@ static void read_states(struct gb_runset_view *runset, GPtrArray *list)
     runset->progress = list->len > 0 ? progress / (double)list->len : 0.0;
 }
 
-/* Runs with a readable curve: at its start a run has none. */
+/* The runs with a readable curve; a run that has just started has none. */
 static GPtrArray *readable(const GPtrArray *list)
 {
     GPtrArray *good = g_ptr_array_new();
@@ -261,7 +264,7 @@ static double largest_pressure(const struct gb_runset *set)
     return max_pa;
 }
 
-/* Inserts a level where there is room; one that is there becomes one of the table. */
+/* Inserts a level if there is room; an existing level becomes a level of the table. */
 static void add_level(struct gb_runset_view *runset, double pa, bool tabulated)
 {
     size_t at = 0;
@@ -306,7 +309,7 @@ static void set_levels(struct gb_runset_view *runset, const struct gb_runset *se
     }
 }
 
-/* Mean and standard error over the replicas that reached each level. */
+/* Averages over the replicas that reached each level: mean and standard error. */
 static void average(struct gb_runset_view *runset, const struct gb_runset *set,
                     size_t group)
 {
@@ -326,7 +329,7 @@ static void average(struct gb_runset_view *runset, const struct gb_runset *set,
     g_free(values);
 }
 
-/* Index of a value in the list of a key, to which new values are appended. */
+/* Index of a value in the list of a key; appends a new value. */
 static size_t index_of_value(struct gb_runset_view_key *key, const char *value)
 {
     for (size_t i = 0; i < key->count; i++) {

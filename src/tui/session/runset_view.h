@@ -9,19 +9,19 @@
 #include "greenbody/status.h"
 #include "many/runset.h"
 
-/* Summary of a directory of many runs: sweep, calibration or replicas.  Read from the
- * files of the runs, which other processes may still be writing. */
+/* Summary of a directory of many runs: sweep, calibration or replicas.  It is read from
+ * the files of the runs, which other processes may still be writing. */
 
 enum { GB_RUNSET_VIEW_LEVELS = 128, GB_RUNSET_VIEW_VARIED = 2 };
 
 struct gb_runset_view_run {
-    char *name; /* of its directory */
+    char *name; /* name of its directory */
     enum gb_run_state state;
     double progress; /* 0..1 */
     char error[120];
 };
 
-/* Replicas of one setting: density where loading first reaches each level. */
+/* Replicas of one setting: the densities at which loading first reaches each level. */
 struct gb_runset_view_group {
     char *label; /* difference to the other groups; "" for a single one */
     size_t members;
@@ -61,15 +61,15 @@ void gb_runset_view_finish(struct gb_runset_view *runset); /* zeroed is fine */
 /* The level nearest to a pressure. */
 size_t gb_runset_view_nearest(const struct gb_runset_view *runset, double pressure_pa);
 
-/* The level of the table nearest to a pressure, without a table any level; or a lower one
- * that more groups reached completely. */
+/* The level of the table (without a table: any level) nearest to a pressure, or a lower
+ * level that all replicas of more groups have reached. */
 size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa);
 
 /* The group with these values of the two varied keys; NULL: none yet. */
 const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *runset,
                                                      size_t first, size_t second);
 
-/* Whether a directory, or its folder `runs`, contains runs and is no run itself. */
+/* Does a directory, or its folder `runs`, contain runs without being a run itself? */
 bool gb_runset_view_any(const char *directory);
 
 #endif

@@ -15,9 +15,9 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term.h"
 
-/* The session: edited parameters, the run and its quick cell, and what is shown of them.  In
- * this order: the quick cell and the full run after it, results that are kept and shown
- * again, what-ifs, snapshots taken for display, and the session itself. */
+/* The session: edited parameters, the run with its quick cell, and the data on display.
+ * In this order: the quick cell and the full run after it, results kept in memory,
+ * what-ifs, snapshots taken for display, and the session itself. */
 
 enum quick_cell_start {
     QUICK_CELL_STARTED,
@@ -37,8 +37,8 @@ static void quick_cell_drop(struct gb_quick_cell *quick_cell)
     memset(quick_cell, 0, sizeof *quick_cell);
 }
 
-/* Starts the quick cell of a scene and destroys the previous one, which stays unless the
- * outcome is QUICK_CELL_STARTED.  Errors: those of gb_runner_create. */
+/* Starts the quick cell of a scene.  The previous one is destroyed if the outcome is
+ * QUICK_CELL_STARTED and stays otherwise.  Errors: see gb_runner_create. */
 static enum quick_cell_start quick_cell_start(struct gb_quick_cell *quick_cell,
                                               const struct gb_params *full_params,
                                               struct gb_error *err)
@@ -67,7 +67,7 @@ static void take(struct gb_quick_cell *quick_cell, const struct gb_snapshot *sna
     quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
 }
 
-/* Takes over a quick cell that has finished; there must be none. */
+/* Takes over a quick cell that has finished; there must be no other. */
 static void quick_cell_adopt(struct gb_quick_cell *quick_cell,
                              const struct gb_params *full_params,
                              struct gb_runner *runner)
@@ -79,7 +79,7 @@ static void quick_cell_adopt(struct gb_quick_cell *quick_cell,
     take(quick_cell, snapshot);
 }
 
-/* Takes the published snapshot; the view stays as it is while it is frozen. */
+/* Takes the published snapshot; a frozen view does not change. */
 static enum quick_cell_news quick_cell_refresh(struct gb_quick_cell *quick_cell,
                                                bool frozen)
 {
@@ -109,11 +109,11 @@ bool gb_session_quick_cell_live(const struct gb_quick_cell *quick_cell)
 
 /* The quick cell of a session, and the full run after it. */
 
-/* A live run of more computing time, s, past and to come, is not replaced
+/* A live run with more computing time (s), past and future, is not replaced
  * automatically. */
 static const double replaced_max_s = 60.0;
 
-/* Whether the quick cell belongs to these parameters. */
+/* Does the quick cell belong to these parameters? */
 static bool session_quick_matches(const struct gb_session *session,
                                   const struct gb_params *params)
 {
@@ -121,15 +121,15 @@ static bool session_quick_matches(const struct gb_session *session,
            gb_previous_diff_count(&session->quick_cell.full_params, params) == 0;
 }
 
-/* Whether the full run of the quick cell has been started. */
+/* Has the full run of the quick cell been started? */
 static bool full_run_started(const struct gb_session *session)
 {
     return session->runner != NULL &&
            session_quick_matches(session, gb_runner_params(session->runner));
 }
 
-/* Keeps the curve of the quick cell as a previous one unless the full run of its scene has
- * been started. */
+/* Keeps the curve of the quick cell as a previous curve, unless the full run of its
+ * scene has been started. */
 static void session_quick_keep_curve(struct gb_session *session)
 {
     if (session->quick_cell.runner != NULL && !full_run_started(session)) {
@@ -138,8 +138,8 @@ static void session_quick_keep_curve(struct gb_session *session)
     }
 }
 
-/* Cost of the full run, estimated from the quick cell; NaN: no estimate.  True: it needs a
- * confirmation, whose text is in text. */
+/* Cost of the full run, estimated from the quick cell; NaN: no estimate.  True: it
+ * needs a confirmation, with its text in text. */
 static bool session_quick_cost(const struct gb_session *session, double *seconds,
                                char *text, size_t size)
 {
@@ -237,7 +237,7 @@ static void note_estimate(struct gb_session *session)
     }
 }
 
-/* What only r replaces: a live what-if, and a live run that takes long. */
+/* Name of a live run that only r may replace: a what-if or a run that takes long. */
 static const char *irreplaceable(const struct gb_session *session)
 {
     const bool what_if = session->whatifs > 0 || session->whatif_text[0] != '\0';
@@ -253,8 +253,8 @@ static const char *irreplaceable(const struct gb_session *session)
                : NULL;
 }
 
-/* After the end of the quick cell: reports it, and decides on the full run. */
-/* The full run follows unless it would replace a run that has to go on. */
+/* After the end of the quick cell: reports it and decides on the full run, which
+ * follows unless it would replace a run that must continue. */
 static void session_quick_finish(struct gb_session *session)
 {
     const struct gb_quick_cell *quick_cell = &session->quick_cell;
@@ -300,7 +300,7 @@ static void session_refresh_show(struct gb_session *session,
     take_events(session);
 }
 
-/* Measured speed, for the cost estimate of the next run. */
+/* Measures the speed, for the cost estimate of the next run. */
 static void take_rate(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
     if (gb_loading_kind_of(gb_runner_params(session->runner))->given_rate &&
@@ -309,7 +309,7 @@ static void take_rate(struct gb_session *session, const struct gb_snapshot *snap
     }
 }
 
-/* Updates of the run; true if the screen changes. */
+/* Updates the run; true if the screen changes. */
 static bool refresh_run(struct gb_session *session)
 {
     if (session->runner == NULL) {
@@ -330,8 +330,8 @@ static bool refresh_run(struct gb_session *session)
     return other_state;
 }
 
-/* Updates of the child command and of the replicas that it computes.  *succeeded: it has
- * ended well. */
+/* Updates the child command and the replicas that it computes. *succeeded: it ended
+ * without an error. */
 static bool refresh_child(struct gb_session *session, bool *succeeded)
 {
     char text[GB_EVENT_TEXT];
@@ -426,11 +426,11 @@ bool gb_session_refresh(struct gb_session *session)
 
 /* Results that are kept in memory, and the steps of the parameters. */
 
-/* Parameters that an undo names; more are counted. */
+/* Largest number of parameters named by an undo; more are counted. */
 enum { NAMED_MAX = 3 };
 
-/* Keeps the run, or the quick cell if it has finished, in memory and takes it from the
- * session. */
+/* Moves the run, or the quick cell if it has finished, from the session to the results
+ * kept in memory. */
 static void session_recall_keep_run(struct gb_session *session)
 {
     const char *directory = gb_runner_directory(session->runner);
@@ -443,14 +443,14 @@ static void session_recall_keep_run(struct gb_session *session)
                               .whatifs = session->whatifs};
     memcpy(run.whatif_at, session->whatif_at, sizeof run.whatif_at);
     session->runner = NULL;
-    if (followed) { /* its engine is elsewhere */
+    if (followed) { /* another process computes it */
         gb_runner_destroy(run.runner);
     } else {
         gb_past_runs_add(&session->kept, &run);
     }
 }
 
-/* The same, by one that was shown before. */
+/* The same for a run or quick cell that was shown before. */
 static void session_adopt(struct gb_session *session, struct gb_runner *runner)
 {
     if (session->runner != NULL) {
@@ -535,7 +535,7 @@ void gb_session_recall_answer(struct gb_session *session)
     const bool on_display = session->runner != NULL && gb_session_changes(session) == 0;
     if (on_display ||
         (!recall_run(session, &params) && !recall_quick(session, &params))) {
-        gb_previous_list_forget(session, &params, true); /* it is computed anew */
+        gb_previous_list_forget(session, &params, true); /* it is computed again */
         gb_session_quick_start(session);
     }
 }
@@ -564,8 +564,8 @@ bool gb_session_recall_step(struct gb_session *session, int direction, char *tex
     return true;
 }
 
-/* The changes are checked with a step that is never reached, so that an error is reported
- * now and not at the next point. */
+/* The changes are checked with a step that is never reached, so that an error is
+ * reported now and not at the next point. */
 static const int64_t some_step = INT64_C(1000000000);
 
 bool gb_session_whatif_request(struct gb_session *session, const char *text,
@@ -713,7 +713,7 @@ static void destroy_preset(void *preset)
     gb_preset_destroy(preset);
 }
 
-/* Earlier presets stay: an undo goes back to them. */
+/* Opens a preset.  Earlier presets stay, because an undo may return to them. */
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err)
 {
     struct gb_preset *preset = NULL;

@@ -12,10 +12,11 @@
 #include "tui/session/previous.h"
 #include "tui/session/results.h"
 
-/* The quick cell of the edited parameters: a second engine that computes a whole loading
- * curve in about two seconds (run/cost.h), before or beside the full run. */
+/* The quick cell of the edited parameters: a second engine that computes a whole
+ * loading curve in about two seconds (run/quick.h), before the full run or at the same
+ * time. */
 struct gb_quick_cell {
-    struct gb_params full_params; /* the full scene that it stands for */
+    struct gb_params full_params; /* the full scene */
     struct gb_runner *runner;     /* NULL: no quick cell */
     struct gb_snapshot now;
     size_t points;
@@ -26,8 +27,8 @@ struct gb_quick_cell {
 
 bool gb_session_quick_cell_live(const struct gb_quick_cell *quick_cell);
 
-/* State of the workbench without its screen: the parameters being edited, the current
- * run, its data on display and the previous curves. */
+/* State of the workbench without its screen: the edited parameters, the current run,
+ * its data on display and the previous curves. */
 
 enum {
     GB_SESSION_WHATIF = 800,
@@ -54,7 +55,7 @@ struct gb_session {
     bool start_due;  /* the full cell is due */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, previous_total; /* number of previous curves, and of all so far */
-    struct gb_curve_label run_label;    /* of the run on display */
+    struct gb_curve_label run_label;    /* label of the run on display */
     struct gb_kept_runs kept;           /* runs and quick cells that can be shown again */
     struct gb_param_steps steps;        /* changes of the parameters */
     char whatif_text
@@ -64,18 +65,18 @@ struct gb_session {
     struct gb_child_command child; /* picture, report, replicas, calibration, moduli */
     struct gb_replica_band replica_band; /* mean of the replicas */
     struct gb_moduli_job moduli;         /* elastic moduli of the run */
-    struct gb_results results;           /* what the jobs have found */
+    struct gb_results results;           /* results of the jobs */
     struct gb_measured *measured;        /* measured data; NULL: none */
-    int measured_dimension; /* of the scene that was shown when they were loaded */
-    char *reading;          /* how its file was asked to be read, as --columns; owned */
-    struct gb_chart_csv *chart;         /* chart of numerical settings; NULL: none */
-    struct gb_stability_csv *stability; /* of the methods; NULL: none */
+    int measured_dimension;     /* dimension of the scene when they were loaded */
+    char *reading;              /* how the file was read, as for --columns; owned */
+    struct gb_chart_csv *chart; /* chart of numerical settings; NULL: none */
+    struct gb_stability_csv *stability; /* stability of the methods; NULL: none */
     struct gb_chart_job chart_job;
     int runs;                    /* number of started runs */
     double particle_steps_per_s; /* speed of the last dynamic run; 0: none yet */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_EVENT_TEXT + 16];
-    int64_t log_count; /* of all lines; the last GB_SESSION_LOG are kept */
+    int64_t log_count; /* number of all lines; the last GB_SESSION_LOG are kept */
 };
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset);
@@ -83,11 +84,11 @@ void gb_session_finish(struct gb_session *session);
 
 struct gb_params *gb_session_params(struct gb_session *session);
 
-/* Whether the edited parameters need a confirmation because of their cost; text receives
- * the question. */
+/* Do the edited parameters need a confirmation because of their cost? text receives the
+ * question. */
 bool gb_session_cost_question(struct gb_session *session, char *text, size_t size);
 
-/* What the views show: the quick cell while it computes, otherwise the run. */
+/* Data for the views: the quick cell while it computes, otherwise the run. */
 struct gb_session_shown {
     const struct gb_snapshot *now;
     const struct gb_params *params; /* of the run; of the preset without a run */
@@ -110,15 +111,15 @@ void gb_session_replace(struct gb_session *session, struct gb_runner *runner);
 /* Opens a preset for editing; does not start it. */
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err);
 
-/* Loads measured data or a chart.csv, distinguished by the header of the file.  An empty
- * path removes the measured data.  reading: a list as gb_lab_options_parse takes it, "":
- * nothing is given.  After a question or an error nothing is changed. */
+/* Loads measured data or a chart.csv, distinguished by the header of the file.  An
+ * empty path removes the measured data. reading: a list for gb_lab_options_parse; "":
+ * no options.  Nothing changes after a question or an error. */
 enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char *path,
                                          const char *reading,
                                          struct gb_lab_report *report,
                                          struct gb_error *err);
-/* The measured data and the mean of the replicas where the scene on display has their
- * dimension: densities of spheres say nothing of discs.  NULL: none. */
+/* The measured data, and the mean of the replicas, if they have the dimension of the
+ * scene on display: densities of spheres do not compare with discs.  NULL: none. */
 const struct gb_measured *gb_session_measured(const struct gb_session *session);
 const struct gb_runset_view_group *gb_session_replicas(const struct gb_session *session);
 /* Misfit of the curve on display to the measured data; reached is 0 without data. */
@@ -130,14 +131,14 @@ bool gb_session_refresh(struct gb_session *session);
 void gb_session_toggle_pause(struct gb_session *session);
 void gb_session_toggle_freeze(struct gb_session *session);
 
-/* Whether an engine is computing or paused: run or quick cell. */
+/* Is an engine computing or paused, for the run or the quick cell? */
 bool gb_session_live(const struct gb_session *session);
-/* The same for the run alone. */
+/* The same for the run only. */
 bool gb_session_run_is_live(const struct gb_session *session);
-/* Whether the display can change without a key, so that polling is needed. */
+/* Can the display change without a key, so that polling is needed? */
 bool gb_session_busy(const struct gb_session *session);
 
-/* Whether the edited value differs from that of the run. */
+/* Does the edited value differ from that of the run? */
 bool gb_session_differs(struct gb_session *session, const struct gb_field *field);
 int gb_session_changes(struct gb_session *session);
 
@@ -148,27 +149,28 @@ void gb_session_note(struct gb_session *session, const char *format, ...)
 const char *gb_session_event_line(const struct gb_session *session, int index);
 
 /* A what-if: the current run continues from its next point with other values, in the
- * syntax of gb_changes_add (scene/field/changes.h); its curve so far becomes a previous
- * curve.  Errors: GB_ERR_INPUT. */
+ * syntax of gb_changes_add (scene/field/changes.h).  Its curve so far becomes a
+ * previous curve.  Errors: GB_ERR_INPUT. */
 bool gb_session_whatif_request(struct gb_session *session, const char *text,
                                struct gb_error *err);
 
-/* After a change of the parameters: shows the run or quick cell of these parameters that
- * is kept in memory, else starts a quick cell.  A run that was stopped by being replaced
- * continues where its directory holds it. */
+/* After a change of the parameters: shows the run or quick cell with these parameters
+ * if it is kept in memory, else starts a quick cell.  A run that was stopped because it
+ * was replaced continues if it is stored in a directory. */
 void gb_session_recall_answer(struct gb_session *session);
 
-/* Goes to the parameters before (-1) or after (1) a change and answers; text receives what
- * has changed, or that there is nothing.  False: nothing has changed. */
+/* Goes to the parameters before (-1) or after (1) a change and shows their results.
+ * text receives what has changed, or that there is nothing.  False: nothing has
+ * changed. */
 bool gb_session_recall_step(struct gb_session *session, int direction, char *text,
                             size_t size);
 
-/* Starts the quick cell of the edited parameters; the engine of the current run waits for
- * it.  Nothing is computed for scenes without a quick cell and for the parameters of the
+/* Starts the quick cell of the edited parameters; the engine of the current run waits
+ * for it.  Nothing starts for scenes without a quick cell or with the parameters of the
  * current run.  False: no quick cell was started. */
 bool gb_session_quick_start(struct gb_session *session);
 
-/* Whether the full run is due after its quick cell; clears the flag. */
+/* Is the full run due after its quick cell?  Clears the flag. */
 bool gb_session_quick_take_due(struct gb_session *session);
 
 #endif

@@ -11,15 +11,16 @@
 
 #include "base/units.h"
 
-/* Drawing into a rectangle of cells: texts cut to the room, wrapped texts, plots, boxes. */
+/* Drawing into a rectangle of cells: texts cut to the room, wrapped texts, plots,
+ * boxes. */
 
-/* Texts cut to the room there is.  A cut text ends with an ellipsis and never with a part
- * of a number: "mu 0.15" gives "mu ..." and not "mu 0.1..."; nor with a part of its unit.  Only a text that is one number
- * is cut among its decimals. */
+/* Cutting texts to the available width.  A cut text ends with an ellipsis and never
+ * with a part of a number ("mu 0.15" gives "mu ..." and not "mu 0.1...") or of its
+ * unit.  Only a text that consists of one number is cut within its decimals. */
 
 #define ELLIPSIS "\u2026"
 
-/* Decimals that a number is left at least where nothing else of a text fits. */
+/* Decimals that remain of a number at least, if nothing else of a text fits. */
 enum { DECIMALS_MIN = 2 };
 
 static bool is_exponent_mark(const char *text, const char *at)
@@ -27,7 +28,8 @@ static bool is_exponent_mark(const char *text, const char *at)
     return (*at == 'e' || *at == 'E') && at > text && g_ascii_isdigit(at[-1]);
 }
 
-/* Digits, a decimal point among them, an exponent with its sign. */
+/* Is the character part of a number: a digit, a decimal point between digits, an
+ * exponent with its sign? */
 static bool is_of_number(const char *text, const char *at)
 {
     return g_ascii_isdigit(*at) || *at == '.' || is_exponent_mark(text, at) ||
@@ -42,7 +44,7 @@ static bool has_digit(const char *from, const char *end)
     return from < end;
 }
 
-/* Whether a number from the beginning of a text is cut behind some of its decimals. */
+/* Is a number at the beginning of a text cut after some of its decimals? */
 static bool is_cut_decimal(const char *text, const char *end)
 {
     const char *point = memchr(text, '.', (size_t)(end - text));
@@ -54,14 +56,14 @@ static bool is_cut_decimal(const char *text, const char *end)
     return point != NULL && end - point > DECIMALS_MIN;
 }
 
-/* Whether a cut at this place takes the end of a word. */
+/* Does a cut at this place remove the end of a word? */
 static bool is_in_word(const char *text, const char *end)
 {
     return end > text && end[-1] != ' ' && g_ascii_isalpha(*end);
 }
 
-/* The end of a cut text without a part of the unit of a number: "2.9 s" says seconds where
- * the text had standard errors. */
+/* Moves the end of a cut text before an incomplete unit: "2.9 s" would mean seconds if
+ * the text has standard errors. */
 static const char *leave_unit(const char *text, const char *end)
 {
     const char *from = end;
@@ -74,7 +76,7 @@ static const char *leave_unit(const char *text, const char *end)
     return from - text >= 2 && g_ascii_isdigit(from[-2]) ? from - 1 : end;
 }
 
-/* The end of a cut text without the number there. */
+/* Moves the end of a cut text before the number there. */
 static const char *leave_number(const char *text, const char *end)
 {
     const char *from = end = leave_unit(text, end);
@@ -125,7 +127,7 @@ char *gb_paint_fit_copy(char *to, size_t size, const char *text)
     return to;
 }
 
-/* Draws one row of wrapped text; row -1: rows are only counted. */
+/* Draws one row of wrapped text; row -1: only counts rows. */
 static void wrap_row(const struct gb_paint *paint, int row, enum gb_style style,
                      const char *text)
 {
@@ -137,7 +139,7 @@ static void wrap_row(const struct gb_paint *paint, int row, enum gb_style style,
 /* State of breaking a text into rows. */
 struct wrapping {
     const struct gb_paint *paint;
-    int row, rows, used; /* row < 0: rows are only counted */
+    int row, rows, used; /* row < 0: only count rows */
     enum gb_style style;
     GString *line;
 };
@@ -153,8 +155,8 @@ static void end_row(struct wrapping *wrapping)
     g_string_truncate(wrapping->line, 0);
 }
 
-/* A word longer than a row, such as a path, continues in the next one; returns its
- * rest. */
+/* Continues a word longer than a row, such as a path, in the next row; returns the rest
+ * of the word. */
 static const char *break_word(struct wrapping *wrapping, const char *word, int room)
 {
     while (gb_paint_width(word) > room && wrapping->used < wrapping->rows - 1) {
@@ -168,8 +170,8 @@ static const char *break_word(struct wrapping *wrapping, const char *word, int r
     return word;
 }
 
-/* The last row takes the rest of the text and ends with an ellipsis if it does not
- * fit. */
+/* Adds a word.  The last row takes the rest of the text and ends with an ellipsis if it
+ * does not fit. */
 static void add_word(struct wrapping *wrapping, const char *word, int room)
 {
     GString *line = wrapping->line;
@@ -183,7 +185,7 @@ static void add_word(struct wrapping *wrapping, const char *word, int room)
     g_string_append_printf(line, "%s%s", line->len > 0 ? " " : "", word);
 }
 
-/* Whether a word is a unit, maybe before a comma or the like. */
+/* Is a word a unit, possibly followed by a comma or similar? */
 static bool is_unit(const char *word)
 {
     const size_t length = strcspn(word, ".,;:)");
@@ -197,7 +199,7 @@ static bool is_unit(const char *word)
     return unit;
 }
 
-/* Joins each number and the unit behind it: a row does not part them. */
+/* Joins each number with the unit after it, so that they stay in one row. */
 static void join_units(char **words)
 {
     size_t last = 0;
@@ -247,7 +249,7 @@ int gb_paint_wrap_rows(const struct gb_paint *paint, int rows, const char *text)
     return wrap(paint, -1, rows, GB_STYLE_PLAIN, text);
 }
 
-/* ASCII replacements of the symbols of the screen, for terminals without UTF-8. */
+/* ASCII replacements for symbols, for terminals without UTF-8. */
 static const struct {
     gunichar sign;
     char ascii;

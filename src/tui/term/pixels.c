@@ -20,7 +20,8 @@ enum { CHANNELS = 3, SIDE_MAX = 16384, FILE_PIXELS_MAX = 64 << 20 };
 
 static const png_color white = {255, 255, 255};
 
-/* libpng closes nothing: *stream is for the caller, also after an error. */
+/* Opens a PNG file. libpng does not close *stream; the caller does, even after an
+ * error. */
 static bool begin(png_image *png, FILE **stream, const char *path, struct gb_error *err)
 {
     const int fd = gb_file_open(path, err);
@@ -56,8 +57,8 @@ static uint32_t big_endian(const uint8_t *bytes)
            bytes[3];
 }
 
-/* Pixels per inch of the chunk pHYs, which stands before the image data; libpng's simplified
- * functions leave it out. */
+/* Reads pixels per inch from the chunk pHYs before the image data, which the simplified
+ * functions of libpng ignore. */
 static double read_per_inch(FILE *stream)
 {
     enum { HEAD = 8, SUM = 4, SIGNATURE = 8, BODY = 9, PER_METRE = 1 };
@@ -94,7 +95,7 @@ bool gb_pixels_png_measure(struct gb_png_pixels *out, const char *path,
     return good;
 }
 
-/* False with err. */
+/* Reads the rows of pixels; false with err. */
 static bool read_rows(struct gb_png_pixels *out, png_image *png, const char *path,
                       struct gb_error *err)
 {
@@ -137,7 +138,7 @@ static const char *wipe(int images)
 
 #include <chafa.h>
 
-/* The shades of term.c, as red, green, blue. */
+/* The shades of term.c as red, green, blue. */
 static const uint8_t ramp[][3] = {{0, 0, 95},      {0, 95, 95},    {0, 95, 135},
                                   {0, 135, 175},   {0, 175, 215},  {95, 175, 215},
                                   {135, 215, 255}, {215, 255, 255}};
@@ -179,7 +180,7 @@ static void put_pixel(uint8_t *pixel, float shade)
         memcpy(pixel, outline, sizeof outline);
         return;
     }
-    /* in levels: runs of one colour compress well */
+    /* in levels: runs of equal colour compress well */
     const float level = floorf(CLAMP(shade, 0.0F, 1.0F) * (float)LEVELS) / (float)LEVELS;
     const float at = level * (float)(RAMP - 1);
     const int low = MIN((int)at, RAMP - 2);
@@ -194,7 +195,7 @@ static char *print(int images, const uint8_t *rgb, int high, int wide, int rows,
                    struct gb_pixels_cell cell)
 {
 #if GB_CHAFA_POOL
-    /* one thread: the cores belong to the engine */
+    /* one thread, because the engine needs the cores */
     chafa_set_n_threads(1);
 #endif
     ChafaTermInfo *info = describe_terminal();
@@ -328,7 +329,7 @@ bool gb_pixels_image_due(const struct gb_term_image *image, double now_s)
     return image->waiting && now_s >= image->last_s + spacing_s;
 }
 
-/* The largest rectangle of the picture's shape in the middle of the cells. */
+/* The largest rectangle with the shape of the picture, centred in the cells. */
 static struct gb_rect fit_shape(const struct gb_png_pixels *picture,
                                 const struct gb_rect *cells, struct gb_pixels_cell cell)
 {

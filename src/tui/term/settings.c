@@ -88,7 +88,7 @@ const char *gb_settings_word(const struct gb_settings *settings, const char *nam
     return row->values[*at((struct gb_settings *)settings, row)];
 }
 
-/* Sets the values of the group [screen]. */
+/* Takes the values of the group [screen]. */
 static bool take_all(struct gb_settings *settings, GKeyFile *file, const char *path,
                      struct gb_error *err)
 {
@@ -105,7 +105,7 @@ static bool take_all(struct gb_settings *settings, GKeyFile *file, const char *p
     return good;
 }
 
-/* The key file, empty where there is none; NULL: it cannot be read. */
+/* Reads the key file; empty if it does not exist.  NULL: it cannot be read. */
 static GKeyFile *load(const char *path, struct gb_error *err)
 {
     char *text = NULL;

@@ -30,9 +30,12 @@
 #include "tui/term/settings.h"
 #include "tui/term/term_profile.h"
 
-/* The terminal apart from curses: redirection and choice of the type. */
+/* The terminal, with and without curses.  In this order: the log file and what happens
+ * at a crash, the clipboard, signals as events, keys and mouse events from bytes,
+ * colours and themes, and struct gb_term, which takes over the terminal and restores
+ * it. */
 
-/* The terminal apart from curses: its log file, and what a crash leaves behind. */
+/* The log file, and restoring the terminal after a crash. */
 
 enum { TAIL_BYTES = 1024 };
 
@@ -53,20 +56,21 @@ static bool last_line(char *text, char *line, size_t size)
     return *line != '\0';
 }
 
-/* The log, if it is a file; a pipe without a reader or writer would block for ever. */
+/* Opens the log if it is a regular file; opening a pipe without a partner would block
+ * forever. */
 static int open_file(const char *path, int flags)
 {
     struct stat info;
     const int fd = open(path, flags | O_CLOEXEC | O_NONBLOCK, 0600);
     if (fd >= 0 && (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))) {
         close(fd);
-        errno = ENXIO; /* as where a pipe has no reader */
+        errno = ENXIO; /* as for a pipe without a reader */
         return -1;
     }
     return fd;
 }
 
-/* Descriptor of the log for reading; -1: error. */
+/* Opens the log for reading; -1: error. */
 static int term_tty_read_log(void)
 {
     char *path = gb_term_log();
@@ -101,7 +105,7 @@ static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 enum { FAULTS = sizeof faults / sizeof faults[0] };
 
-/* File scope: a signal handler has no argument for its data. */
+/* Global, because a signal handler has no argument for its data. */
 static struct {
     int screen, err;
     struct termios modes;
@@ -137,9 +141,10 @@ static void handle(int number)
     raise(number);
 }
 
-/* Restores the terminal when the process is ended by a fault: on SIGSEGV, SIGBUS, SIGFPE,
- * SIGILL and SIGABRT writes the reset sequence to the terminal, restores its modes and
- * standard error, and raises the signal with its previous action.  Async-signal-safe.
+/* Restores the terminal when a fault ends the process.  On SIGSEGV, SIGBUS, SIGFPE,
+ * SIGILL and SIGABRT it writes the reset sequence, restores the modes of the terminal
+ * and standard error, and raises the signal with its previous action.
+ * Async-signal-safe.
  *
  * screen  descriptor of the terminal
  * err     standard error before the screen was opened
@@ -169,7 +174,7 @@ static void term_tty_crash_remove(void)
 
 void gb_term_crash_set_run(const char *directory)
 {
-    installed.state[0] = '\0'; /* set after the line is complete */
+    installed.state[0] = '\0'; /* set again when the line is complete */
     if (directory == NULL) {
         return;
     }
@@ -184,7 +189,7 @@ char *gb_term_log(void)
     return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
 }
 
-/* -1 with errno; ENXIO: it is no file. */
+/* Opens the log; -1 with errno, ENXIO if it is not a file. */
 static int open_log(void)
 {
     char *path = gb_term_log();
@@ -213,9 +218,8 @@ bool gb_term_check_log(struct gb_error *err)
 }
 
 /* Redirects standard output and error to a log file
- * ($XDG_STATE_HOME/greenbody/workbench.log, or /dev/null). */
-/* Libraries print to standard error and standard output, which would corrupt the
- * screen. */
+ * ($XDG_STATE_HOME/greenbody/workbench.log, or /dev/null), because output of libraries
+ * would corrupt the screen. */
 static void term_tty_redirect(void)
 {
     fflush(stdout);
@@ -228,7 +232,7 @@ static void term_tty_redirect(void)
     }
 }
 
-/* Restores the descriptors that were duplicated before. */
+/* Restores the original descriptors from their duplicates. */
 static void term_tty_restore(int out, int err)
 {
     fflush(stdout);
@@ -282,14 +286,14 @@ const char *gb_term_type(int fd, struct gb_error *err)
     return NULL;
 }
 
-/* The clipboard of the user's terminal, set by OSC 52: the terminal decodes the sequence,
- * so that a text copied on a remote machine is pasted on the local one.  Source: xterm
- * control sequences, "Manipulate Selection Data". */
+/* The clipboard of the user's terminal, set by OSC 52.  The terminal decodes the
+ * sequence, so text copied on a remote machine can be pasted on the local one.  Source:
+ * xterm control sequences, "Manipulate Selection Data". */
 
-/* Part of a sequence in one string of GNU screen: below its limit of 768 bytes. */
+/* Bytes of a sequence per string of GNU screen, below its limit of 768. */
 enum { SCREEN_PART = 512 };
 
-/* DCS tmux; ... ST with every Esc doubled. */
+/* Adds DCS tmux; ...  ST with every Esc doubled. */
 static void add_tmux(GString *to, const char *plain)
 {
     g_string_append(to, "\033Ptmux;");
@@ -299,7 +303,8 @@ static void add_tmux(GString *to, const char *plain)
     g_string_append(to, "\033\\");
 }
 
-/* DCS ... ST, which screen sends on; the terminal sees the parts as one sequence. */
+/* Adds DCS ...  ST, which screen passes on; the terminal sees the parts as one
+ * sequence. */
 static void add_screen(GString *to, const char *plain)
 {
     const size_t length = strlen(plain);
@@ -337,8 +342,9 @@ char *gb_term_clipboard_sequence(int clipboard, const char *text, struct gb_erro
     return g_string_free(all, FALSE);
 }
 
-/* With its default options tmux ignores both sequences of a program, but not its own
- * command, which needs tmux 3.2.  The text is in a file in memory: nothing blocks. */
+/* Sets a buffer of tmux.  With default options tmux ignores both sequences of a
+ * program, but not its own command, which needs tmux 3.2.  The text is in a file in
+ * memory, so nothing blocks. */
 static void load_buffer(const char *text)
 {
     static const char *const words[] = {"tmux", "load-buffer", "-w", "-", NULL};
@@ -354,7 +360,7 @@ static void load_buffer(const char *text)
     close(fd);
 }
 
-/* Signals as events to be read, instead of handlers. */
+/* Signals as events that are read, instead of handlers. */
 enum { GB_TERM_SIGNALS = 7 };
 
 struct term_signals {
@@ -379,8 +385,8 @@ struct gb_term {
     uint64_t style[GB_STYLE_COUNT];
 };
 
-/* Sends a sequence that moves no cursor and changes no cell; how copies are sent, one of
- * enum gb_settings_clipboard. */
+/* Sends a sequence that moves no cursor and changes no cell; how copies are sent, one
+ * of enum gb_settings_clipboard. */
 static void term_pass(struct gb_term *term, const char *sequence)
 {
     fputs(sequence, term->out);
@@ -407,13 +413,13 @@ bool gb_term_clipboard_copy(struct gb_term *term, const char *text, struct gb_er
     return true;
 }
 
-/* Keys, text and mouse events from the bytes of a terminal.  The sequences are those that
- * curses has from terminfo.  Not by curses' own reading, which measures its wait for the
- * rest of a sequence by the time of day and waits for days where that is set back. */
+/* Keys, text and mouse events from the bytes of a terminal, with the sequences of
+ * terminfo. curses' own input is not used, because it measures the wait for the rest of
+ * a sequence by the time of day and hangs if the clock is set back. */
 
 enum { ESCAPE = 27, DELETE = 127 };
 
-/* What the first bytes are.  Length 0: the beginning of something longer. */
+/* Meaning of the first bytes.  Length 0: the beginning of something longer. */
 struct token {
     size_t length;
     struct gb_term_event event; /* GB_TERM_TIMEOUT: ignored */
@@ -438,7 +444,7 @@ static struct token ignored(size_t length)
     return (struct token){.length = length, .event = {.kind = GB_TERM_TIMEOUT}};
 }
 
-/* Button and modifiers as xterm encodes them: left button and wheel. */
+/* Button and modifiers in xterm's encoding: left button and wheel. */
 static struct token mouse_token(size_t length, int button, int col, int row)
 {
     enum { MODIFIERS = 4 | 8 | 16, LEFT = 0, WHEEL_UP = 64, WHEEL_DOWN = 65 };
@@ -462,7 +468,7 @@ static struct token mouse_token(size_t length, int button, int col, int row)
     return token;
 }
 
-/* Esc [ M and three bytes. */
+/* Esc [ M followed by three bytes. */
 static struct token old_mouse(const char *bytes, size_t count)
 {
     enum { LENGTH = 6, OFFSET = 32 };
@@ -472,7 +478,7 @@ static struct token old_mouse(const char *bytes, size_t count)
                : mouse_token(LENGTH, at[3] - OFFSET, at[4] - OFFSET, at[5] - OFFSET);
 }
 
-/* Length of a control sequence, Esc [ parameters letter; 0: its end is not there. */
+/* Length of a control sequence, Esc [ parameters letter; 0: incomplete. */
 static size_t control_length(const char *bytes, size_t count)
 {
     for (size_t i = 2; i < count; i++) {
@@ -483,8 +489,8 @@ static size_t control_length(const char *bytes, size_t count)
     return 0;
 }
 
-/* One that terminfo does not have.  With parameters it is a key that means nothing here;
- * without, Esc and text. */
+/* A control sequence that terminfo lacks.  With parameters it is an unknown key and is
+ * ignored; without, it is Esc followed by text. */
 static struct token control_token(const char *bytes, size_t count)
 {
     const size_t length = control_length(bytes, count);
@@ -508,7 +514,7 @@ static struct token key_token(size_t length, int code)
     return (struct token){.length = length, .event = {.kind = kind, .code = code}};
 }
 
-/* One character of the locale; a byte that belongs to none is ignored. */
+/* One character of the locale.  A byte that does not belong to one is ignored. */
 static struct token character(const char *bytes, size_t count)
 {
     const unsigned char first = (unsigned char)bytes[0];
@@ -528,7 +534,8 @@ static struct token character(const char *bytes, size_t count)
                           .event = {.kind = GB_TERM_TEXT, .code = (int32_t)code}};
 }
 
-/* A key of terminfo; length 0 with code ERR: the beginning of one; with 0: none. */
+/* Finds a key of terminfo.  Length 0 with code ERR: the beginning of a key; length 0
+ * with code 0: not a key. */
 static size_t defined_key(const char *bytes, size_t count, int *code)
 {
     char sequence[GB_TERM_KEYS_BYTES + 1] = "";
@@ -585,7 +592,7 @@ bool gb_term_keys_next(struct gb_term_keys *keys, double now_s,
         if (token.length == 0 && !rest_is_late(keys, now_s)) {
             return false;
         }
-        if (token.length == 0) { /* the first byte for itself */
+        if (token.length == 0) { /* the first byte alone */
             token = character(keys->bytes, 1);
         }
         take(keys, token.length > 0 ? token.length : 1);
@@ -610,8 +617,8 @@ int gb_term_keys_wait_ms(const struct gb_term_keys *keys, double now_s, int time
 static const int handled[GB_TERM_SIGNALS] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
                                              SIGTSTP, SIGCONT, SIGWINCH};
 
-/* Blocks SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT and SIGWINCH in this thread and
- * those that it starts; ignores SIGPIPE. */
+/* Blocks SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT and SIGWINCH in this thread
+ * and in threads that it starts; ignores SIGPIPE. */
 static void term_signals_catch(struct term_signals *signals)
 {
     sigset_t mask;
@@ -626,7 +633,7 @@ static void term_signals_catch(struct term_signals *signals)
     signals->fd = signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
-/* Leaves the signals blocked for good. */
+/* Leaves the signals blocked permanently. */
 static void term_signals_give_up(struct term_signals *signals)
 {
     close(signals->fd);
@@ -641,8 +648,8 @@ static int term_signals_read(const struct term_signals *signals)
     return whole ? (int)info.ssi_signo : 0;
 }
 
-/* Restores what was there before.  Pending signals are discarded: they requested the end
- * that has come.  No effect after giving up. */
+/* Restores the previous signal mask.  Pending signals are discarded, because they
+ * requested the end that has come.  No effect after giving up. */
 static void term_signals_release(struct term_signals *signals)
 {
     if (signals->fd < 0) {
@@ -671,8 +678,9 @@ static void term_signals_stop(void)
     pthread_sigmask(SIG_BLOCK, &stop, NULL);
 }
 
-/* Colours of a theme, as numbers of the 256 and the 16 colours of terminals; the latter
- * modulo 8 where there are only eight.  -1: the terminal's own. */
+/* Colours of a theme, as numbers in the 256 and in the 16 colours of terminals.  The
+ * latter are taken modulo 8 on terminals with eight colours. -1: the terminal's own
+ * colour. */
 
 enum { WHITE_16 = 15, WHITE_256 = 231, BLACK_256 = 16, LIGHT_GREY_16 = 7 };
 
@@ -746,7 +754,7 @@ static void set_plain(uint64_t *style)
     }
 }
 
-/* The colour that the terminal has. */
+/* The colour that this terminal supports. */
 static short of_terminal(short colour_256, short colour_16)
 {
     return COLORS >= 256                   ? colour_256
@@ -759,7 +767,7 @@ static short background_of(const struct gb_term_theme *theme)
     return of_terminal(theme->background, theme->background_16);
 }
 
-/* Text without a pair of its own gets the pair of the background, too. */
+/* Gives text without a colour pair of its own the background of the theme. */
 static void paint_background(const struct gb_term_theme *theme)
 {
     init_pair(TEXT_PAIR, of_terminal(theme->text, theme->text_16), background_of(theme));
@@ -787,7 +795,7 @@ static void set_colours(uint64_t *style, const struct gb_term_theme *theme)
     style[GB_STYLE_FOCUS] = pair[0] | A_REVERSE | A_BOLD;
 }
 
-/* One hue from dark to light: depth is visible with every kind of colour vision. */
+/* One hue from dark to light, so that depth is visible with any colour vision. */
 static const short shades_256[GB_TERM_SHADES] = {17, 23, 24, 31, 38, 74, 117, 195};
 
 static short shade_pair(int shade, int back)
@@ -815,9 +823,9 @@ static uint64_t term_style_shade(int shade, int back)
     return (uint64_t)COLOR_PAIR(shade_pair(shade, back));
 }
 
-/* curses attributes of every enum gb_style for the current terminal: 256, 16, 8 or no
- * colours, none unless `coloured`; the colours and the background of all cells are those
- * of the theme.  True: shades are available, too. */
+/* Sets the curses attributes of every enum gb_style for the present terminal: 256, 16,
+ * 8 or no colours, none unless `coloured`.  Colours and the background of all cells
+ * come from the theme.  True: shades are available. */
 static bool term_style_init(uint64_t *style, bool coloured, int theme)
 {
     const struct gb_term_theme *row = gb_term_theme_row(theme);
@@ -830,7 +838,7 @@ static bool term_style_init(uint64_t *style, bool coloured, int theme)
     return set_shades(background_of(row));
 }
 
-/* Width of a cell in pixels where the terminal does not report it. */
+/* Width of a cell in pixels if the terminal does not report it. */
 enum { DEFAULT_CELL_WIDTH = 10 };
 
 static void set_modes(void)
@@ -839,7 +847,7 @@ static void set_modes(void)
     noecho();
     nonl();
     curs_set(0);
-    keypad(stdscr, TRUE); /* arrows and keypad send what terminfo says */
+    keypad(stdscr, TRUE); /* arrows and keypad send the sequences of terminfo */
 }
 
 static bool start_screen(struct gb_term *term, const char *type, struct gb_error *err)
@@ -874,7 +882,8 @@ static int duplicate(int fd)
     return fcntl(fd, F_DUPFD_CLOEXEC, 3);
 }
 
-/* Keys are read from standard input, or from /dev/tty if input is a pipe. */
+/* Opens input and output.  Keys come from standard input, or from /dev/tty if that is a
+ * pipe. */
 static bool open_streams(struct gb_term *term, struct gb_error *err)
 {
     if (!isatty(STDOUT_FILENO)) {
@@ -984,7 +993,7 @@ static void term_suspend(struct gb_term *term)
     set_modes();
 }
 
-/* The new size is read from the kernel here, not in a signal handler. */
+/* Handles a new size, which is read from the kernel here and not in a signal handler. */
 static struct gb_term_event resized(struct gb_term *term)
 {
     term->repaints++;
@@ -1022,7 +1031,8 @@ static struct gb_term_event from_signal(struct gb_term *term)
     }
 }
 
-/* A closed terminal returns 0 bytes at once for every read: polling would spin. */
+/* Is the terminal closed?  Every read then returns 0 bytes at once, so polling would
+ * spin. */
 static bool is_closed(const struct gb_term *term, short revents)
 {
     int waiting = 0;

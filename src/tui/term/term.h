@@ -9,8 +9,8 @@
 #include "greenbody/status.h"
 #include "tui/term/settings.h"
 
-/* Messages of libraries and drivers on standard error go to the log while the screen is
- * open; the newest line is shown among the events. */
+/* While the screen is open, messages that libraries and drivers print on standard error
+ * go to the log.  The newest line is shown among the events. */
 struct gb_stderr_tail {
     int64_t length; /* bytes of the log read so far; -1: not opened yet */
 };
@@ -21,17 +21,18 @@ void gb_term_tail_init(struct gb_stderr_tail *stderr_tail);
  * or standard error is not a file. */
 bool gb_term_tail_poll(struct gb_stderr_tail *stderr_tail, char *line, size_t size);
 
-/* The run directory; the message names its last checkpoint, if there is one.  Copied;
- * NULL: none. */
+/* Sets the run directory.  The message after a crash names its last checkpoint, if
+ * there is one.  Copied; NULL: none. */
 void gb_term_crash_set_run(const char *directory);
 
 /* Path of the log file; g_free. */
 char *gb_term_log(void);
 
-/* Can the log be written?  Otherwise err says why nothing is logged, and the rest works. */
+/* Can the log be written?  If not, err has the reason; everything else works without
+ * it. */
 bool gb_term_check_log(struct gb_error *err);
 
-/* The terminal's own type, or for an unknown one (common over ssh) a type that nearly all
+/* The terminal's own type, or for an unknown type (common over ssh) one that nearly all
  * terminals understand.  NULL: no type with cursor addressing. */
 const char *gb_term_type(int fd, struct gb_error *err);
 
@@ -42,19 +43,18 @@ int gb_term_colours(const char *type, int fd);
  * it, standard output and standard error go to a log file. */
 struct gb_term;
 
-/* Longest text, bytes: its Base64 form and header are the 100,000 bytes that terminals
- * with a limit accept. */
+/* Longest text, bytes.  With Base64 and its header it has 100,000 bytes, the limit of
+ * some terminals. */
 enum { GB_CLIPBOARD_MAX = 74994 };
 
-/* The sequence by one of enum gb_settings_clipboard: OSC52; TMUX, also with the passthrough
- * of tmux; SCREEN, also with the passthrough of GNU screen, whose strings are limited to
- * 768 bytes.  g_free.  Errors: GB_ERR_INPUT for a text that is empty or too long, or with
- * the clipboard off. */
+/* The sequence for one of enum gb_settings_clipboard: OSC52; TMUX, also with the
+ * passthrough of tmux; SCREEN, also with the passthrough of GNU screen, whose strings
+ * have at most 768 bytes. g_free.  Errors: GB_ERR_INPUT if the text is empty or too
+ * long, or the clipboard is off. */
 char *gb_term_clipboard_sequence(int clipboard, const char *text, struct gb_error *err);
 
-/* Sends a text to the clipboard.  Whether the terminal accepts it is not reported by any
- * terminal.  Inside of tmux the text becomes its newest paste buffer, too.  Errors: as
- * above. */
+/* Sends a text to the clipboard.  No terminal reports whether it accepts the text.
+ * Inside tmux the text also becomes its newest paste buffer.  Errors: as above. */
 bool gb_term_clipboard_copy(struct gb_term *term, const char *text, struct gb_error *err);
 
 /* A rectangle of character cells; rows or cols 0: hidden. */
@@ -69,15 +69,16 @@ struct gb_rect {
 enum { GB_TERM_KEYS_BYTES = 256 };
 
 struct gb_term_keys {
-    char bytes[GB_TERM_KEYS_BYTES]; /* not yet understood */
+    char bytes[GB_TERM_KEYS_BYTES]; /* bytes that are not yet complete */
     size_t count;
-    double since_s; /* clock when the last of them came */
+    double since_s; /* clock when the last byte arrived */
 };
 
-/* Room for bytes to be read, and its size; never 0 after gb_term_keys_next was false. */
+/* Memory for bytes to be read, and its size, which is never 0 after gb_term_keys_next
+ * returned false. */
 char *gb_term_keys_room(struct gb_term_keys *keys, size_t *size);
 
-/* So many bytes were read into the room. */
+/* Adds `count` bytes that were read into this memory. */
 void gb_term_keys_add(struct gb_term_keys *keys, size_t count, double now_s);
 
 enum gb_term_event_kind {
@@ -94,16 +95,16 @@ enum gb_term_event_kind {
 struct gb_term_event {
     enum gb_term_event_kind kind;
     int32_t code;
-    int row, col; /* of the mouse */
+    int row, col; /* position of the mouse */
 };
 
-/* The next event, if there is one.  The first bytes of a longer sequence are kept until its
- * rest comes or too much time has passed. */
+/* The next event, if there is one.  The first bytes of a longer sequence are kept until
+ * its rest arrives or GB_TERM_KEYS_REST_S has passed. */
 bool gb_term_keys_next(struct gb_term_keys *keys, double now_s,
                        struct gb_term_event *event);
 
-/* Time until bytes that are kept are keys of their own, ms; at most timeout_ms, which is
- * negative for no limit. */
+/* Time until kept bytes count as keys, ms; at most timeout_ms, where a negative value
+ * means no limit. */
 int gb_term_keys_wait_ms(const struct gb_term_keys *keys, double now_s, int timeout_ms);
 
 enum { GB_TERM_THEME_SERIES = 6 };
@@ -112,21 +113,23 @@ struct gb_term_theme {
     short series[GB_TERM_THEME_SERIES], series_16[GB_TERM_THEME_SERIES];
     short grey, grey_16;
     short text, text_16;
-    short background, background_16; /* of all cells */
+    short background, background_16; /* background of all cells */
 };
 
-/* theme: of enum gb_settings_theme.  Of the six series any two differ by at least 15 in
- * CIELAB, also for protanopia, deuteranopia and tritanopia (matrices of Machado et al.
- * 2009).  Contrast, as in WCAG: light at least 3 on white, dark 5 on black, contrast 7 on
- * its black background; auto 2.4 on white and 3.2 on black. */
+/* The row of a theme, one of enum gb_settings_theme.  Any two of the six series differ
+ * by at least 15 in CIELAB, also for protanopia, deuteranopia and tritanopia (matrices
+ * of Machado et al. 2009).
+ *
+ * Least contrast of the series as in WCAG: `light` 3 on white; `dark` 5 on black;
+ * `contrast` 7 on its black background; `auto` 2.4 on white and 3.2 on black. */
 const struct gb_term_theme *gb_term_theme_row(int theme);
 
-/* The theme itself; auto becomes light or dark for a terminal that tells its background in
- * $COLORFGBG ("15;0"; NULL: it does not). */
+/* Resolves a theme: auto becomes light or dark if the terminal reports its background
+ * in $COLORFGBG ("15;0"; NULL: it does not). */
 int gb_term_theme_resolve(int theme, const char *colorfgbg);
 
-/* Styles by meaning.  Their attributes depend on the terminal and on NO_COLOR; every
- * meaning is also shown by a word or a symbol. */
+/* Styles by meaning.  Their attributes depend on the terminal and on NO_COLOR.  Every
+ * meaning also has a word or a symbol. */
 enum gb_style {
     GB_STYLE_PLAIN,
     GB_STYLE_DIM,
@@ -145,40 +148,40 @@ enum gb_style {
 
 enum gb_term_mouse_code { GB_TERM_CLICK, GB_TERM_WHEEL_UP, GB_TERM_WHEEL_DOWN };
 
-/* Takes over the terminal.  Errors: GB_ERR_MACHINE for no terminal, for a type without
- * cursor addressing and without fallback; nothing has been changed then. */
+/* Takes over the terminal.  Errors: GB_ERR_MACHINE without a terminal, or for a type
+ * without cursor addressing and without a fallback; nothing has changed then. */
 bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
                    struct gb_error *err);
 /* Restores the terminal.  Signals stay blocked until gb_term_destroy, so that a repeated
  * request to end does not interrupt the saving of data. */
 void gb_term_stop(struct gb_term *term);
 
-/* Instead of gb_term_stop after a hang-up: no more access to the terminal.  Standard
- * output and error stay in the log file, signals stay blocked. */
+/* Call this instead of gb_term_stop after a hang-up: the terminal is no longer
+ * accessed.  Standard output and error stay in the log file, and signals stay blocked. */
 void gb_term_abandon(struct gb_term *term);
 
-/* After gb_term_stop or gb_term_abandon; may be NULL. */
+/* Call this after gb_term_stop or gb_term_abandon; NULL is fine. */
 void gb_term_destroy(struct gb_term *term);
 
-/* Waits for an event, at most timeout_ms (negative: without limit). */
+/* Waits for an event, at most timeout_ms (negative: no limit). */
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms);
 
-/* Redraws the whole screen with the next flush, whatever the terminal shows. */
+/* Redraws the whole screen at the next flush. */
 void gb_term_repaint(struct gb_term *term);
 /* Sends the changes to the terminal. */
 void gb_term_flush(struct gb_term *term);
 
 void gb_term_size(const struct gb_term *term, int *rows, int *cols);
 bool gb_term_utf8(const struct gb_term *term);
-/* Braille is in no font of the Linux console. */
+/* Are braille characters available?  The fonts of the Linux console lack them. */
 bool gb_term_braille(const struct gb_term *term);
-/* Whether shades of one hue are available, and their attributes: shade 0 (dark) to
- * GB_TERM_SHADES - 1 on a background of another shade, -1: background of the terminal. */
+/* Are shades of one hue available?  Their attributes: shade 0 (dark) to GB_TERM_SHADES
+ * - 1 on a background of another shade; -1: background of the terminal. */
 enum { GB_TERM_SHADES = 8 };
 bool gb_term_shaded(const struct gb_term *term);
 uint64_t gb_term_shade(const struct gb_term *term, int shade, int back);
-/* Switches mouse reporting, during which only Shift-drag selects text in the terminal.
- * Stays off if terminfo has no mouse sequence. */
+/* Switches mouse reporting.  While it is on, only Shift-drag selects text in the
+ * terminal.  It stays off if terminfo has no mouse sequence. */
 void gb_term_mouse(struct gb_term *term, bool on);
 bool gb_term_has_mouse(const struct gb_term *term);
 
@@ -189,8 +192,8 @@ void gb_term_cell(const struct gb_term *term, int *width, int *height);
 int64_t gb_term_repaints(const struct gb_term *term);
 void gb_term_send(struct gb_term *term, int row, int col, const char *text);
 
-/* The colours, one of enum gb_settings_theme; without colours it has no effect.  Takes
- * effect with the next frame. */
+/* Sets the colours, one of enum gb_settings_theme, from the next frame on.  No effect
+ * without colours. */
 void gb_term_set_theme(struct gb_term *term, int theme);
 int gb_term_present_theme(const struct gb_term *term);
 

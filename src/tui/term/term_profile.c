@@ -26,8 +26,8 @@ static bool in_multiplexer(const char *type)
            g_str_has_prefix(type, "screen") || g_str_has_prefix(type, "tmux");
 }
 
-/* Terminals with 256 colours are often named xterm, whose entry has eight: an entry with
- * more colours is preferred if there is one. */
+/* Many terminals with 256 colours are named xterm, whose entry has eight.  Prefers an
+ * entry with more colours if there is one. */
 static void prefer_colours(struct gb_term_profile *profile, int fd)
 {
     const char *colorterm = from_env("COLORTERM");
@@ -74,14 +74,14 @@ static int detect_images(const struct gb_term_profile *profile,
     if (settings->images != GB_IMAGES_AUTO) {
         return settings->images;
     }
-    /* an image has about 100 times the bytes of a frame: over ssh only if requested */
+    /* an image has about 100 times the bytes of a frame, so over ssh only on request */
     const bool far = *from_env("SSH_CONNECTION") != '\0';
     return profile->inside || far || !profile->coloured ? GB_IMAGES_NONE
                                                         : gb_pixels_detect();
 }
 
-/* A terminal named screen without $TMUX is taken as screen: tmux ignores its sequence,
- * whereas screen would show that of tmux. */
+/* A terminal named screen without $TMUX is treated as screen: tmux ignores its
+ * sequence, whereas screen would display the sequence of tmux. */
 static int detect_clipboard(const char *type, const struct gb_settings *settings)
 {
     if (settings->clipboard != GB_CLIPBOARD_AUTO) {

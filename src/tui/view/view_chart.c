@@ -6,12 +6,12 @@
 #include "tui/term/paint.h"
 #include "tui/view/views.h"
 
-/* Longest stable step of each method over the step that it takes, against the pressure of
- * the state; below 1 a disturbance grows. */
+/* Longest stable step of each method over the step that it uses, against the pressure
+ * of the state.  Below 1 a disturbance grows. */
 
 enum { METHODS_MOST = 4 };
 
-/* Room on both sides of what is drawn, a factor. */
+/* Factor of room on both sides of the data. */
 static const double room = 1.5;
 
 /* The first rows of different methods; returns their number. */
@@ -31,7 +31,7 @@ static int find_methods(const struct gb_stability_csv *table, size_t first[METHO
     return count;
 }
 
-/* Points of a method into the panel's arrays; returns their number. */
+/* Copies the points of a method to the panel's arrays; returns their number. */
 static size_t collect(struct gb_panel_plot *panel, const struct gb_stability_csv *table,
                       const char *method)
 {
@@ -105,7 +105,7 @@ void gb_view_chart_stability(struct gb_panel_plot *panel,
     draw_methods(panel, table);
 }
 
-/* Kinds of settings in the order in which they are drawn. */
+/* Kinds of settings in drawing order. */
 enum kind { NOISE, SETTING, FRONT, CHOSEN, KINDS };
 
 static const struct gb_plot_entry kinds[KINDS] = {
@@ -115,7 +115,7 @@ static const struct gb_plot_entry kinds[KINDS] = {
     [CHOSEN] = {GB_PLOT_INK_SERIES + 4, 3, ""}, /* its name */
 };
 
-/* Room below the points for the name of the axis, a factor. */
+/* Factor of room below the points for the name of the axis. */
 static const double below = 1.5;
 
 static void extend(double ends[2], double value)
@@ -153,7 +153,7 @@ static size_t draw_kind(struct gb_plot *plot, const struct gb_chart_csv *chart,
     return drawn;
 }
 
-/* Settings and their legend. */
+/* Draws settings and their legend. */
 static void draw_settings(struct gb_plot *plot, const struct gb_chart_csv *chart)
 {
     struct gb_plot_entry entry[KINDS];

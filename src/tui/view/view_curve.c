@@ -1,3 +1,8 @@
+/* Views of the pressure-density curve and of pairs of its quantities.  The first part
+ * draws the legs of a loading path: stress paths, deviatoric stress and volume strain
+ * against strain.  The second part draws pressure against density or time: branches of
+ * the run, previous curves, quick cell, replicas, measured points and what-ifs, then
+ * axes and legend. */
 #include "tui/view/view_curve.h"
 
 #include <glib.h>
@@ -24,7 +29,7 @@ static double ratio(const struct gb_point *point)
                                                     : (double)NAN;
 }
 
-/* Below this fraction of the highest pressure the ratio is noise. */
+/* Below this fraction of the highest pressure the ratio is only noise. */
 static const double noise = 0.01;
 
 void gb_view_curve_ratio(struct gb_panel_plot *panel, const struct gb_session *session)
@@ -82,7 +87,7 @@ enum {
 
 enum { ENTRIES = GB_PATH_LEGS_MAX + GB_UNLOAD_MAX + 1 };
 
-/* What a view shows of a point, and the labels of its axes. */
+/* The quantities of a view at a point, and the labels of its axes. */
 struct axes {
     double (*x)(const struct gb_point *point, int component);
     double (*y)(const struct gb_point *point, int component);
@@ -112,7 +117,7 @@ static struct gb_path view_legs_path(const struct gb_session *session)
     return path;
 }
 
-/* Line, mark and legend of leg n (from 1). */
+/* Line, marker and legend of leg n (from 1). */
 static struct gb_plot_series view_legs_style(int leg)
 {
     return (struct gb_plot_series){.ink =
@@ -195,14 +200,14 @@ static void view_legs_draw_axes(struct drawing *drawing)
                  drawing->axes.y_label);
 }
 
-/* Initial state and loading are one branch. */
+/* Is the point in the branch?  The initial state and loading are one branch. */
 static bool is_member(const struct gb_point *point, int branch)
 {
     const bool load = point->branch <= 0 && point->branch >= GB_BRANCH_LEG;
     return load ? branch == GB_BRANCH_LOAD : point->branch == branch;
 }
 
-/* A branch begins at the point that it leaves. */
+/* Gathers the points of a branch, from the point at which the branch starts. */
 static size_t view_legs_gather(struct drawing *drawing, int branch)
 {
     const struct gb_point *root = NULL;
@@ -297,9 +302,7 @@ void gb_view_curve_volume_strain(struct gb_panel_plot *panel,
     draw(panel, session, (struct axes){strain, volume_strain, 2, "", "volume strain, %"});
 }
 
-/* The view of the curve: branches of the run, what lies over them, axes and legend. */
-
-/* Branches of the run's curve: loading, unloading, and the stages of a dynamic run. */
+/* The view of the curve: branches of the run, other curves, axes and legend. */
 
 enum {
     MARK_LOAD = 1,
@@ -328,7 +331,8 @@ static bool is_stage_of_cycle(int branch)
     return branch < GB_BRANCH_HOLD && branch >= GB_BRANCH_LEAST;
 }
 
-/* A quasi-static run has no stages: its initial state is part of loading. */
+/* Is the point on the branch?  The initial state of a quasi-static run is part of
+ * loading, since it has no stages. */
 static bool on_branch(const struct gb_point *point, int branch, bool dynamic)
 {
     if (!dynamic && point->branch <= 0 && point->branch >= GB_BRANCH_LEG &&
@@ -356,9 +360,10 @@ static bool against_time(const struct gb_view_curve *view)
     return view->panel->view->abscissa == GB_VIEW_ELAPSED;
 }
 
-/* Collects the points of a branch in the panel.  A branch starts at the point that it
- * leaves: a stage or a leg at the last point of the one before, an unloading branch at its point
- * of the loading branch.  Against time, NaN separates it from branches in between. */
+/* Gathers the points of a branch in the panel.  A branch starts at the point that it
+ * leaves: a stage or a leg at the last point of the previous one, an unloading branch
+ * at its point of the loading branch.  Against time, NaN separates it from branches in
+ * between. */
 static size_t gather(const struct gb_view_curve *view, int branch, double *from_pa)
 {
     const bool dynamic = is_dynamic(view->session);
@@ -417,7 +422,7 @@ static struct gb_plot_series branch_style(int branch, bool dynamic, double from_
     }
 }
 
-/* "dense: loading" of a run that the user has named. */
+/* Writes "dense: loading" for a run named by the user. */
 static void name_run(const struct gb_view_curve *view, char *name, size_t size)
 {
     const char *given = view->session->run_label.name;
@@ -446,8 +451,9 @@ static int kind_of(const struct gb_session *session)
     return gb_session_shown(session).params->kind;
 }
 
-/* A superseded quick curve is hidden together with the previous curves.  Against the step
- * number, quick cells of quasi-static runs are hidden: their strain steps are longer. */
+/* Is the quick cell drawn?  A superseded quick curve is hidden with the previous
+ * curves.  Against the step number, quick cells of quasi-static runs are hidden,
+ * because their strain steps are longer. */
 static bool view_curve_quick_shown(const struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -456,7 +462,7 @@ static bool view_curve_quick_shown(const struct gb_view_curve *view)
            !(view->panel->hide_previous && gb_view_curve_quick_superseded(session));
 }
 
-/* Whether a curve of another run is shown in a colour: a run has one colour then. */
+/* Is a curve of another run drawn in colour?  The run then has a single colour. */
 static bool view_curve_several(const struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -504,8 +510,8 @@ static int last_branch(const struct gb_view_curve *view)
     return last;
 }
 
-/* Unloading branches are drawn first, loading on top.  The legend lists the last line
- * first: stages are drawn in reverse order of time. */
+/* Draws unloading branches first and loading on top.  The legend lists the last line
+ * first, so stages are drawn in reverse order of time. */
 static void view_curve_branches(struct gb_view_curve *view)
 {
     for (int branch = last_branch(view); branch > 0; branch--) {
@@ -523,10 +529,11 @@ static void view_curve_branches(struct gb_view_curve *view)
 
 enum { MARK_MEASURED = 5, REPLICA_SPACING = 8 };
 
-/* Measurements have markers in the colour of texts; colours are those of runs. */
+/* Measurements have markers in the colour of text; other colours are for runs. */
 enum { INK_MEASURED = GB_PLOT_INK_TEXT };
 
-/* x coordinates of a previous curve; NULL: nanoseconds and steps share no axis. */
+/* x coordinates of a previous curve; NULL: it has nanoseconds and the run has steps, or
+ * the reverse. */
 static const double *view_curve_previous_x(const struct gb_view_curve *view,
                                            const struct gb_previous_curve *previous)
 {
@@ -536,7 +543,7 @@ static const double *view_curve_previous_x(const struct gb_view_curve *view,
     return previous->params.kind == kind_of(view->session) ? previous->elapsed : NULL;
 }
 
-/* view_curve.c: previous curves, quick cell, replicas, measured data, what-ifs. */
+/* Previous curves, quick cell, replicas, measured data, what-ifs. */
 static void view_curve_previous(struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -563,7 +570,7 @@ static void view_curve_previous(struct gb_view_curve *view)
     }
 }
 
-/* ": mu 0.2" where these parameters differ from those of the run, else "". */
+/* Writes ": mu 0.2" if these parameters differ from those of the run, else "". */
 static void write_difference(const struct gb_session *session,
                              const struct gb_params *params, char *text, size_t size)
 {
@@ -577,7 +584,7 @@ static void write_difference(const struct gb_session *session,
     }
 }
 
-/* In the next colour until the full cell is started, then dim. */
+/* Draws the quick cell in the next colour until the full cell is started, then dim. */
 static void view_curve_quick(struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -612,7 +619,7 @@ view_curve_replicas(const struct gb_view_curve *view)
     return against_time(view) ? NULL : gb_session_replicas(view->session);
 }
 
-/* The mean of the replicas plus standard errors. */
+/* Shifts the mean of the replicas by a number of standard errors. */
 static void shift_mean(const struct gb_view_curve *view, double errors,
                        double x[GB_RUNSET_VIEW_LEVELS], double y[GB_RUNSET_VIEW_LEVELS])
 {
@@ -623,7 +630,7 @@ static void shift_mean(const struct gb_view_curve *view, double errors,
     }
 }
 
-/* Mean of the replicas, in a band of two standard errors on both sides. */
+/* Draws the mean of the replicas in a band of two standard errors on both sides. */
 static void draw_replicas(struct gb_view_curve *view)
 {
     const struct gb_runset_view_group *group = view_curve_replicas(view);
@@ -660,7 +667,7 @@ static enum gb_plot_range_of across(const struct gb_view_curve *view)
     return against_time(view) ? GB_PLOT_RANGE_TIME : GB_PLOT_RANGE_DENSITY;
 }
 
-/* A marker and its standard errors as lines; NaN draws nothing. */
+/* Draws a marker with its standard errors as lines; NaN draws nothing. */
 static void draw_measured_point(struct gb_view_curve *view, size_t i)
 {
     const struct gb_measured *data = view->session->measured;
@@ -707,7 +714,7 @@ static void view_curve_measured(struct gb_view_curve *view)
     view_curve_add(view, &named, name);
 }
 
-/* A letter where a what-if began. */
+/* Draws a letter where a what-if began. */
 static void view_curve_what_ifs(struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -730,11 +737,11 @@ static void view_curve_what_ifs(struct gb_view_curve *view)
     }
 }
 
-/* Largest ratio of pressures on a logarithmic axis: smaller pressures come from single
+/* Largest ratio of pressures on a logarithmic axis; smaller pressures come from single
  * contacts. */
 static const double log_range = 1e5;
 
-/* From this pressure on an axis is in GPa. */
+/* Pressure from which an axis is in GPa. */
 static const double giga_from_pa = 9.9e9;
 
 double gb_view_curve_unit(double highest_pa)
@@ -767,7 +774,8 @@ struct ends {
     double x[2], y[2], min_positive;
 };
 
-/* Points outside a typed range do not count for the other axis. */
+/* Extends the ranges by a point.  Points outside a typed range do not extend the other
+ * axis. */
 static void extend(struct ends *ends, double x, double y)
 {
     if (!isfinite(x) || !isfinite(y) ||
@@ -856,7 +864,7 @@ static void draw_axes(struct gb_view_curve *view)
                  gb_view_curve_unit_label(view->unit_pa));
 }
 
-/* Text of the empty plot before the first point. */
+/* Writes the text of the empty plot before the first point. */
 static void draw_waiting(const struct gb_view_curve *view)
 {
     const struct gb_session_shown shown = gb_session_shown(view->session);
@@ -870,7 +878,7 @@ static void draw_waiting(const struct gb_view_curve *view)
                  GB_PLOT_INK_TEXT, text);
 }
 
-/* The legend lists the line on top, which is drawn last, first. */
+/* Draws the legend, with the last line first, because it is on top. */
 static void draw_legend(struct gb_view_curve *view)
 {
     for (int i = 0; i < view->entries / 2; i++) {

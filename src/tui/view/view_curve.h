@@ -4,10 +4,10 @@
 #include "scene/path/path.h"
 #include "tui/view/views.h"
 
-/* The mean of replicas: its colour; its band ends at so many standard errors. */
+/* Mean of the replicas: its colour, and the half width of its band in standard errors. */
 enum { GB_VIEW_INK_REPLICAS = GB_PLOT_INK_SERIES + 5, GB_VIEW_BAND_ERRORS = 2 };
 
-/* Unit of an axis that ends at a pressure, Pa: 1 MPa, or 1 GPa; its label is "p, MPa". */
+/* Unit (Pa) of an axis up to this pressure: 1 MPa or 1 GPa; its label is "p, MPa". */
 double gb_view_curve_unit(double highest_pa);
 const char *gb_view_curve_unit_label(double unit_pa);
 
@@ -22,14 +22,14 @@ enum {
 struct gb_view_curve {
     struct gb_panel_plot *panel;
     const struct gb_session *session;
-    double unit_pa;      /* of the pressure axis */
+    double unit_pa;      /* unit of the pressure axis */
     struct gb_path path; /* legs of the run */
     struct gb_plot_entry entry[GB_VIEW_CURVE_ENTRIES];
     int entries;
 };
 
 bool gb_view_curve_quick_superseded(const struct gb_session *session);
-/* Colour that the quick cell would have as a previous curve; plain where all are taken. */
+/* Colour that the quick cell would have as a previous curve; plain if all are used. */
 int gb_view_curve_quick_ink(const struct gb_session *session);
 
 #endif

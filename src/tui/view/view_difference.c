@@ -8,8 +8,8 @@
 #include "tui/term/paint.h"
 #include "tui/view/view_curve.h"
 
-/* Density of each curve minus that of the run, at equal pressure, with bands of twice the
- * standard deviation that is expected of a difference. */
+/* Density of each curve minus the density of the run, at equal pressure.  Bands are
+ * twice the standard deviation expected for a difference. */
 
 enum {
     SAMPLES = 96,
@@ -19,17 +19,17 @@ enum {
     REPLICA_SPACING = 8
 };
 
-/* Pressures below this fraction of the highest one are not drawn on the axis of logarithms:
- * single contacts carry them. */
+/* Pressures below this fraction of the highest one are not drawn on a logarithmic axis,
+ * because single contacts carry them. */
 static const double log_range = 1e3;
-/* Bands closer than this are one. */
+/* Bands closer than this are merged. */
 static const double same_band = 1e-5;
 
 /* A curve minus the run. */
 struct difference {
     struct gb_pressure_row row;
     int ink, marker;
-    double value[SAMPLES], error[SAMPLES]; /* error: of the curve alone */
+    double value[SAMPLES], error[SAMPLES]; /* error: of the curve only */
 };
 
 struct view {
@@ -117,7 +117,7 @@ static void style(const struct view *view, struct difference *curve)
     }
 }
 
-/* Half width of the band of a curve, unless that of another one is the same. */
+/* Adds the half width of the band of a curve, unless another curve has the same. */
 static void add_band(struct view *view, const struct difference *curve, double error)
 {
     const struct gb_pressure_value base = {0.0, error};
@@ -200,7 +200,7 @@ static void draw_axes(struct view *view)
                  gb_view_curve_unit_label(view->unit_pa), "density - run");
 }
 
-/* A level from the first pressure to the last. */
+/* Draws a level from the first pressure to the last. */
 static void draw_level(const struct view *view, double level, int ink)
 {
     const struct gb_plot_axis *axis = &view->panel->plot.x;
@@ -210,7 +210,7 @@ static void draw_level(const struct view *view, double level, int ink)
                  &(struct gb_plot_series){.x = x, .y = y, .count = 2, .ink = ink});
 }
 
-/* A curve plus `errors` of its standard errors. */
+/* Shifts a curve by `errors` of its standard errors. */
 static void shift(const struct view *view, const struct difference *curve, double errors,
                   double x[SAMPLES], double y[SAMPLES])
 {
@@ -231,7 +231,7 @@ static void draw_band(const struct view *view, const struct difference *curve)
                                                             .ink = GB_PLOT_INK_DIM});
 }
 
-/* Measured points stand at their pressures, with their errors. */
+/* Draws measured points at their pressures, with their errors. */
 static void draw_measured(const struct view *view)
 {
     const struct gb_measured *data = view->session->measured;

@@ -9,14 +9,15 @@
 
 enum { EQUATIONS = 4, SAMPLES = 96, ENTRIES = EQUATIONS + 2 };
 
-/* Least lines of the list of fits below the axes, and rows of the plot per line. */
+/* Least number of lines in the list of fits below the axes, and rows of the plot per
+ * line. */
 enum { LIST_LEAST = 3, ROWS_PER_LINE = 3 };
 enum { MARK_LOAD = 1 };
 
-/* Columns of a plot from which on the legend has intervals. */
+/* Width of a plot from which the legend has intervals. */
 enum { COLUMNS_INTERVALS = 90 };
 
-/* From this pressure on the axis is in GPa. */
+/* Pressure from which the axis is in GPa. */
 static const double giga_from_mpa = 9.9e3;
 
 /* A fit and where it is drawn, MPa. */
@@ -29,11 +30,11 @@ struct line {
 struct view {
     struct gb_panel_plot *panel;
     const struct gb_compaction_cache *cache;
-    double unit_mpa; /* of the pressure axis */
+    double unit_mpa; /* unit of the pressure axis */
     struct gb_plot_entry entry[ENTRIES];
     struct line line[ENTRIES];
     int entries;
-    int room; /* lines of the list; the loading branch stands in it where all fits do */
+    int room; /* lines of the list; it has the loading branch if all fits fit */
 };
 
 /* Adds a line with its entry in the legend, in the next colour and marker. */
@@ -63,7 +64,7 @@ static char *describe(const struct view *view, size_t index)
     return g_string_free(text, FALSE);
 }
 
-/* The mean yield pressure and its stretch; g_free. */
+/* The mean yield pressure and its linear range; g_free. */
 static char *describe_heckel(const struct view *view)
 {
     const struct gb_compaction_fits *fits = &view->cache->fits;
@@ -73,14 +74,15 @@ static char *describe_heckel(const struct view *view)
                            pressure[fits->stretch.first + fits->stretch.count - 1]);
 }
 
-/* Balshin's curve is Walker's; Heckel's is drawn on its stretch. */
+/* Is the equation drawn?  Balshin's curve equals Walker's; Heckel's is drawn on its
+ * range. */
 static bool is_drawn(const struct gb_equation *equation)
 {
     return strcmp(equation->name, "balshin") != 0 &&
            strcmp(equation->name, "heckel") != 0;
 }
 
-/* The loading branch, the best equations, and Heckel's on its stretch. */
+/* Collects the loading branch, the best equations, and Heckel's on its linear range. */
 static void collect(struct view *view, const struct gb_session_shown *shown)
 {
     const struct gb_compaction_fits *fits = &view->cache->fits;
@@ -111,7 +113,7 @@ static void collect(struct view *view, const struct gb_session_shown *shown)
     }
 }
 
-/* Points of the loading branch in the panel; returns their number. */
+/* Copies the points of the loading branch to the panel; returns their number. */
 static size_t take_loading(struct view *view, const struct gb_session_shown *shown)
 {
     struct gb_panel_plot *panel = view->panel;
@@ -126,7 +128,7 @@ static size_t take_loading(struct view *view, const struct gb_session_shown *sho
     return count;
 }
 
-/* Points of a fit in the panel; returns their number. */
+/* Copies points of a fit to the panel; returns their number. */
 static size_t take_fit(struct view *view, const struct line *line)
 {
     struct gb_panel_plot *panel = view->panel;
@@ -152,8 +154,7 @@ static void draw_line(struct view *view, const struct gb_session_shown *shown, i
                                           .marker = view->entry[k].marker});
 }
 
-/* The first entry of the list, which leaves the loading branch out where there is no
- * room. */
+/* The first entry of the list, which omits the loading branch if there is no room. */
 static int first_listed(const struct view *view)
 {
     return view->entries > view->room;
@@ -179,7 +180,7 @@ static void draw_axes(struct view *view)
                  "relative density", giga ? "p, GPa" : "p, MPa");
 }
 
-/* The fits below the axes, a line each. */
+/* Draws the list of fits below the axes, one per line. */
 static void draw_list(struct view *view)
 {
     struct gb_plot *plot = &view->panel->plot;

@@ -1,3 +1,7 @@
+/* Views of the contact law of the edited parameters: normal force against overlap on
+ * loading and unloading, and the strength of bridges.  If the run has other parameters,
+ * its law is drawn dim.  Scenes with the laws of a pair (Hertz, Storakers) have a view
+ * of their own. */
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
@@ -33,7 +37,7 @@ static void follow(const struct gb_contact_pair *pair, bool flows, double max,
     }
 }
 
-/* Unloading from the largest overlap. */
+/* Follows unloading from the largest overlap. */
 static void follow_back(const struct gb_contact_pair *pair, double max,
                         struct view_pair_line *line)
 {
@@ -56,7 +60,7 @@ static void view_pair_draw(struct gb_plot *plot, const struct view_pair_line *li
     gb_plot_line(plot, &series);
 }
 
-/* The law of the run, if it differs. */
+/* Draws the law of the run if it differs. */
 static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
                         const struct gb_session *session, double max)
 {
@@ -74,7 +78,7 @@ static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
     return true;
 }
 
-/* Law of Hertz or Storakers, for scenes with it; called by gb_view_law_force. */
+/* Draws Hertz' or Storakers' law, for scenes that use it; called by gb_view_law_force. */
 static void view_law_pair(struct gb_panel_plot *panel, const struct gb_session *session)
 {
     const struct gb_params *params = &panel->edited;
@@ -103,19 +107,19 @@ static void view_law_pair(struct gb_panel_plot *panel, const struct gb_session *
     }
     view_pair_draw(plot, &line, VIEW_PAIR_INK_LAW, 1);
     entry[entries++] = (struct gb_plot_entry){
-        VIEW_PAIR_INK_LAW, 1, "" /* name of the law */
+        VIEW_PAIR_INK_LAW, 1, "" /* set to the name of the law */
     };
     snprintf(entry[entries - 1].name, sizeof entry[0].name, "%s",
              plastic(params) ? "Storakers, loading" : "Hertz");
     gb_plot_legend(plot, entry, entries);
 }
 
-/* Points of a curve; its depth beyond the formation of a bridge, in bridge lengths; its
- * end for scenes without bridges and adhesion, in diameters. */
+/* Points per curve.  Largest overlap: with bridges, in bridge lengths beyond the
+ * formation of a bridge; without bridges and adhesion, in diameters. */
 enum { POINTS = 160 };
 static const double bridge_lengths = 2.5;
 static const double depth_min = 0.012;
-/* Fraction of the largest attraction down to which the gap is drawn. */
+/* The gap is drawn until the attraction has fallen to this fraction. */
 static const double gap_share = 0.1;
 static const double gap_max = 0.1;
 
@@ -130,7 +134,7 @@ static bool has_bridges(const struct gb_model *model)
     return model->terms.bridges && model->bridge.length < 1.0;
 }
 
-/* Range of overlaps that is drawn, in diameters. */
+/* Finds the range of overlaps to draw, in diameters. */
 static void find_range(const struct gb_model *model, double range[2])
 {
     range[0] = model->terms.attraction
@@ -154,7 +158,8 @@ static double nano_newton(const struct gb_model *model, double force)
     return 1e9 * model->newton_per_force * force;
 }
 
-/* f_n = f_e - f_a of a contact at its largest overlap so far: P1 Fig. 1, A-B-C-C'. */
+/* Follows f_n = f_e - f_a of a contact at its largest overlap so far: P1 Fig. 1,
+ * A-B-C-C'. */
 static void follow_loading(const struct gb_model *model, const double range[2],
                            struct line *line)
 {
@@ -168,7 +173,8 @@ static void follow_loading(const struct gb_model *model, const double range[2],
     }
 }
 
-/* Unloading of a bridged contact, from its largest overlap until it breaks: C-D. */
+/* Follows unloading of a bridged contact from its largest overlap until it breaks: C-D.
+ */
 static void follow_bridge(const struct gb_model *model, double deepest, double x[2],
                           double y[2])
 {
@@ -202,7 +208,7 @@ static void draw_zero(struct gb_plot *plot, const double range[2])
     draw(plot, range, zero, 2, GB_PLOT_INK_AXIS, 0);
 }
 
-/* Models of the edited parameters, and of the run if they differ. */
+/* Makes the models of the edited parameters, and of the run if they differ. */
 static bool freeze(const struct gb_panel_plot *panel, const struct gb_session *session,
                    struct gb_model *model, struct gb_model *before)
 {
@@ -278,7 +284,8 @@ void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *ses
     gb_plot_legend(plot, entry, entries);
 }
 
-/* Mean normal stress that breaks a bridge partly (h > 0) or wholly (h = 0), GPa. */
+/* Follows the mean normal stress that breaks a bridge partly (h > 0) or completely (h =
+ * 0), GPa. */
 static void follow_strength(const struct gb_model *model, double max, struct line *line)
 {
     for (int i = 0; i < POINTS; i++) {

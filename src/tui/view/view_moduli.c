@@ -6,7 +6,7 @@
 #include "scene/tolerances.h"
 #include "tui/view/views.h"
 
-/* Averages against density, and the numbers of the last state below the axes. */
+/* Averages against density, and the values of the last state below the axes. */
 
 enum { CURVES = 3, LINES = 5, LINE = 96 };
 
@@ -28,7 +28,7 @@ struct drawing {
 
 static const struct quantity averages[CURVES] = {
     {"E_GPa", "E"}, {"K_GPa", "K"}, {"G_GPa", "G"}};
-/* Planes have no averages over directions. */
+/* 2D has no averages over directions; the constants are drawn instead. */
 static const struct quantity constants[CURVES] = {
     {"axial_C33_GPa", "C33"}, {"axial_C11_GPa", "C11"}, {"axial_C44_GPa", "C44"}};
 
@@ -118,7 +118,7 @@ static void draw_axes(struct drawing *drawing)
             y[1] = fmax(y[1], drawing->y[k][i]);
         }
     }
-    if (!(x[1] > x[0])) { /* one state */
+    if (!(x[1] > x[0])) { /* only one state */
         x[0] -= 0.01;
         x[1] += 0.01;
     }

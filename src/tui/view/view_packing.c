@@ -26,7 +26,7 @@ static bool is_outline(float dot)
     return dot > 1.0F;
 }
 
-/* A dot of an outline before a sphere or the background. */
+/* Sets the cell of an outline, which is in front of spheres and background. */
 static void put_outline(struct gb_plot_cell *cell, float above, float below)
 {
     const float behind = is_outline(above) ? below : above;
@@ -39,7 +39,7 @@ static void put_outline(struct gb_plot_cell *cell, float above, float below)
         behind < 0.0F || is_outline(behind) ? 0 : level(behind, GB_PLOT_SHADES) + 1;
 }
 
-/* A half block shows two dots of a cell: foreground above, background below. */
+/* A half block shows two dots: above as foreground and below as background. */
 static void put_halves(struct gb_plot_cell *cell, float above, float below)
 {
     if (above < 0.0F && below < 0.0F) {
@@ -84,7 +84,7 @@ static void put_mean(struct gb_plot_cell *cell, float above, float below, bool a
     cell->ch = ascii ? ascii_ramp[level(mean, ASCII)] : wide_ramp[level(mean, WIDE)];
 }
 
-/* One cell of the ramp of colours. */
+/* Sets one cell of the colour ramp. */
 static void put_shade(const struct gb_panel_plot *panel, struct gb_plot_cell *cell, int k,
                       int cells)
 {
@@ -97,7 +97,8 @@ static void put_shade(const struct gb_panel_plot *panel, struct gb_plot_cell *ce
     }
 }
 
-/* "coordination number 0 ######## 9"; ">" where some particles are beyond the range. */
+/* Writes "coordination number 0 ######## 9", with ">" if some particles are beyond the
+ * range. */
 static void write_legend(struct gb_panel_plot *panel, const struct gb_view_sample *sample)
 {
     struct gb_plot *plot = &panel->plot;
@@ -117,7 +118,7 @@ static void write_legend(struct gb_panel_plot *panel, const struct gb_view_sampl
 
 enum caption { CAPTION_CORNER, CAPTION_BELOW };
 
-/* The caption: two short lines in the corner, or one below an image. */
+/* Writes the caption: two short lines in the corner, or one line below an image. */
 static void write_caption(struct gb_panel_plot *panel,
                           const struct gb_view_sample *sample,
                           const struct gb_params *params, enum caption caption)
@@ -155,10 +156,10 @@ static void write_caption(struct gb_panel_plot *panel,
     }
 }
 
-/* Arrows turn the packing by this, degrees. */
+/* Angle by which arrow keys turn the packing, degrees. */
 static const double step_deg = 15.0;
 
-/* Left: the packing turns to the left, the viewer to the right. */
+/* Left turns the packing to the left, so the viewer moves to the right. */
 void gb_view_packing_navigate(struct gb_panel_plot *panel, enum gb_action action)
 {
     switch (action) {

@@ -13,8 +13,8 @@ static void draw_line(struct gb_plot *plot, const double *x, const double *y,
     gb_plot_line(plot, &series);
 }
 
-/* The distribution depends on the angle to z only: each bin is drawn in four
- * directions. */
+/* Draws each bin in four directions, because the distribution depends only on the angle
+ * to z. */
 static size_t close_rose(const double rose[GB_SNAPSHOT_ROSE], double sign, double *x,
                          double *y)
 {
@@ -47,7 +47,8 @@ static void draw_frame(struct gb_plot *plot, double radius)
     draw_line(plot, none, across, 2, GB_PLOT_INK_AXIS, 0);
 }
 
-/* Dots are square in all glyph sets: equal scales of both axes make a circle round. */
+/* Equal scales of both axes make a circle round, because dots are square in all glyph
+ * sets. */
 static void make_square(struct gb_plot *plot, double radius)
 {
     const double wide = plot->cols;
@@ -99,7 +100,8 @@ void gb_view_structure_rose(struct gb_panel_plot *panel, const struct gb_session
                  plot->glyphs == GB_PLOT_ASCII ? "o: tensile" : "\u25cb: tensile");
 }
 
-/* Upper limit of the axis: the first peak is a delta function and would hide the rest. */
+/* Upper limit of the axis.  The first peak is a delta function and would hide the rest.
+ */
 static const double shown_max = 8.0;
 
 void gb_view_structure_distances(struct gb_panel_plot *panel,
@@ -117,7 +119,7 @@ void gb_view_structure_distances(struct gb_panel_plot *panel,
     for (int i = 0; i < GB_VIEW_SAMPLE_RDF; i++) {
         panel->x[i] = (i + 0.5) * sample->rdf_reach / GB_VIEW_SAMPLE_RDF;
         panel->y[i] = fmin(sample->rdf[i], shown_max);
-        /* not fmax: gcc 12.2 stops at its reduction on aarch64 */
+        /* not fmax: gcc 12.2 for aarch64 fails on its reduction */
         max = panel->y[i] > max ? panel->y[i] : max;
         peak = sample->rdf[i] > peak ? sample->rdf[i] : peak;
     }
