@@ -13,11 +13,11 @@
 enum { GB_KEPT_RUNS = 12, GB_KEPT_RUN_WHATIFS = 16 };
 
 struct gb_kept_run {
-    struct gb_params params;     /* of the full scene */
-    struct gb_runner *runner;    /* its engine has ended; owned */
-    bool quick;                  /* a quick cell */
-    bool stopped;                /* replaced before its end */
-    struct gb_curve_label label; /* label of its previous curve */
+    struct gb_params params;               /* of the full scene */
+    struct gb_runner *runner;              /* its engine has ended; owned */
+    bool quick;                            /* a quick cell */
+    bool stopped;                          /* replaced before its end */
+    struct gb_curve_label label;           /* label of its previous curve */
     size_t whatif_at[GB_KEPT_RUN_WHATIFS]; /* as in the session */
     int whatifs;
 };
