@@ -292,7 +292,7 @@ static void print_refusals(const struct gb_compaction_fits *fits)
 }
 
 /* Draws the figure of the fits and writes its data next to it. */
-static bool write_figure(const struct gb_compaction_series *one,
+static bool write_figure(const struct gb_series_powder *one,
                          const struct request *request, struct gb_error *err)
 {
     const struct gb_figures_row *row = gb_figures_find("fit");

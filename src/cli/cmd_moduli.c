@@ -192,7 +192,7 @@ static bool moduli_folder_begin(const struct moduli_folder *folder,
 }
 
 /* Opens the folder for a run: the run's own directory, whose table is extended, or a
- * folder without moduli.  Errors: as above; see gb_moduli_states_read. */
+ * folder without moduli.  Errors: as above; see gb_moduli_table_read. */
 static bool moduli_folder_open(struct moduli_folder *folder, const char *directory,
                                struct gb_error *err)
 {

@@ -85,7 +85,7 @@ static void add_mean(struct gb_listing *listing, const struct gb_model *model,
     g_string_free(text, TRUE);
 }
 
-/* Errors: GB_ERR_INPUT (lattices, stdout cannot be written); see gb_percolation_find. */
+/* Errors: GB_ERR_INPUT (lattices, stdout cannot be written); see gb_structure_percolation. */
 static bool pack_percolation(const struct gb_params *params, int cells,
                              struct gb_error *err)
 {

@@ -13,6 +13,23 @@
 #include "run/experiment.h"
 #include "runner/publish.h"
 
+/* Positions at the start, from which a view measures displacements.  A zeroed one is filled
+ * by the next sample. */
+struct gb_view_start {
+    double *position; /* count x 3 */
+    int64_t count;
+    struct gb_cell cell;
+    double half_width; /* of the widest box of a die so far, while it has its funnel */
+    double height;
+    bool pressed; /* taken when pressing had begun */
+};
+
+void gb_runner_finish(struct gb_view_start *start);
+
+/* The same of a state.  pressed: pressing has begun. */
+void gb_runner_take_state(const struct gb_state *state, bool pressed,
+                          struct gb_view_start *start, struct gb_view_sample *sample);
+
 /* One run in a background thread.  The thread blocks all signals. */
 struct gb_runner;
 

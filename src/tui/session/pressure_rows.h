@@ -45,7 +45,7 @@ struct gb_pressure_row gb_pressure_rows_previous(const struct gb_session *sessio
 double gb_pressure_rows_usual(const struct gb_session *session, double typed_pa);
 
 /* A density and its standard error: of the mean of replicas, as given with a
- * measurement, or gb_cell_scatter for one cell.  NaN: not reached, or unknown. */
+ * measurement, or gb_average_cell_scatter for one cell.  NaN: not reached, or unknown. */
 struct gb_pressure_value {
     double density, error;
 };

@@ -13,7 +13,7 @@
 #include "tui/session/results.h"
 
 /* The quick cell of the edited parameters: a second engine that computes a whole
- * loading curve in about two seconds (run/quick.h), before the full run or at the same
+ * loading curve in about two seconds (run/cost.h), before the full run or at the same
  * time. */
 struct gb_quick_cell {
     struct gb_params full_params; /* the full scene */
