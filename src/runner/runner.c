@@ -178,7 +178,7 @@ static void measure_distances(const struct gb_state *state, struct gb_view_sampl
     }
 }
 
-void gb_runner_finish(struct gb_view_start *start)
+void gb_runner_view_start_finish(struct gb_view_start *start)
 {
     gb_alloc_free(start->position);
     *start = (struct gb_view_start){.count = 0};
@@ -204,8 +204,8 @@ static void note_start(const struct gb_state *state, bool pressed,
     }
 }
 
-void gb_runner_take_state(const struct gb_state *state, bool pressed,
-                          struct gb_view_start *start, struct gb_view_sample *sample)
+void gb_runner_view_of_state(const struct gb_state *state, bool pressed,
+                             struct gb_view_start *start, struct gb_view_sample *sample)
 {
     const bool in_die = state->die_radius > 0.0;
     sample->dimension = state->dimension;
@@ -247,7 +247,7 @@ static void view_sampling_take(const struct gb_experiment *experiment,
     if (gb_experiment_state(experiment, &state, NULL)) {
         const bool pressed = gb_experiment_bed(experiment) == NULL ||
                              gb_experiment_point(experiment)->height_m > 0.0;
-        gb_runner_take_state(state, pressed, start, sample);
+        gb_runner_view_of_state(state, pressed, start, sample);
         gb_state_destroy(state);
     }
 }
@@ -365,8 +365,8 @@ static void publish_view(struct gb_runner *runner)
 /* Publishes a view sample of a state from a file. */
 static void publish_view_of(struct gb_runner *runner, const struct gb_state *state)
 {
-    gb_runner_take_state(state, true, &runner->view_start,
-                         &runner->view[runner->view_slots.back]);
+    gb_runner_view_of_state(state, true, &runner->view_start,
+                            &runner->view[runner->view_slots.back]);
     gb_publish_slots_swap(&runner->view_slots);
 }
 
@@ -838,7 +838,7 @@ static void *follow_thread(void *data)
 static void free_runner(struct gb_runner *runner)
 {
     gb_record_finish(&runner->record);
-    gb_runner_finish(&runner->view_start);
+    gb_runner_view_start_finish(&runner->view_start);
     gb_simulation_destroy(runner->simulation);
     g_free(runner->directory);
     gb_alloc_free(runner);

@@ -24,11 +24,11 @@ struct gb_view_start {
     bool pressed; /* taken when pressing had begun */
 };
 
-void gb_runner_finish(struct gb_view_start *start);
+void gb_runner_view_start_finish(struct gb_view_start *start);
 
 /* The same of a state.  pressed: pressing has begun. */
-void gb_runner_take_state(const struct gb_state *state, bool pressed,
-                          struct gb_view_start *start, struct gb_view_sample *sample);
+void gb_runner_view_of_state(const struct gb_state *state, bool pressed,
+                             struct gb_view_start *start, struct gb_view_sample *sample);
 
 /* One run in a background thread.  The thread blocks all signals. */
 struct gb_runner;

@@ -123,7 +123,7 @@ static void test_tilted(void)
     for (int k = 0; k < 3 * COUNT; k++) {
         state->position[k] = g_rand_double_range(random, 0.0, state->cell[k % 3]);
     }
-    gb_runner_take_state(state, true, &start, sample);
+    gb_runner_view_of_state(state, true, &start, sample);
     const struct gb_deformation shear = {
         .f = {{1.1, -0.1, 0.3}, {0.0, 0.9, -0.2}, {0.0, 0.0, 0.8}}};
     struct gb_cell cell = gb_state_cell(state);
@@ -135,7 +135,7 @@ static void test_tilted(void)
         gb_mat_apply(shear.f, state->position + 3 * i, at);
         memcpy(state->position + 3 * i, at, sizeof at);
     }
-    gb_runner_take_state(state, true, &start, sample);
+    gb_runner_view_of_state(state, true, &start, sample);
     g_assert_cmpint(sample->count, ==, COUNT);
     for (int i = 0; i < COUNT; i++) {
         g_assert_cmpfloat(sample->value[GB_VIEW_VALUE_DISPLACEMENT][i], <, 1e-6);
@@ -144,7 +144,7 @@ static void test_tilted(void)
             g_assert_cmpfloat(sample->position[i][k], <=, sample->window[k] + 1e-6);
         }
     }
-    gb_runner_finish(&start);
+    gb_runner_view_start_finish(&start);
     gb_state_destroy(state);
     g_rand_free(random);
     g_free(sample);
