@@ -147,10 +147,11 @@ static bool take_tilts(struct gb_imported_raw *raw, const struct gb_imported_lin
     line[strlen(line) - strlen("xy xz yz")] = '\0';
     char **words = g_strsplit_set(g_strstrip(line), " \t", -1);
     for (int k = 0; good && k < 3; k++) {
-        good = (words[k] != NULL || gb_imported_lines_refuse(
-                                        lines, err, "%d tilts: must be 3, xy xz yz", k)) &&
-               gb_imported_lines_number(lines, words[k], "a tilt of the cell",
-                                        &raw->tilts[k], err);
+        good =
+            (words[k] != NULL ||
+             gb_imported_lines_refuse(lines, err, "%d tilts: must be 3, xy xz yz", k)) &&
+            gb_imported_lines_number(lines, words[k], "a tilt of the cell",
+                                     &raw->tilts[k], err);
     }
     g_strfreev(words);
     return good;

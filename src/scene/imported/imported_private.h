@@ -12,8 +12,8 @@ struct gb_imported_raw {
     bool cell;        /* low and edges are known */
     double low[3], edges[3];
     double tilts[3]; /* xy, xz, yz */
-    double unit_m; /* unit of length; NaN: not said */
-    bool reduced;  /* lengths are in d already, and unit_m is d */
+    double unit_m;   /* unit of length; NaN: not said */
+    bool reduced;    /* lengths are in d already, and unit_m is d */
 };
 
 /* Lines of a text, one after the other; each is cut off and trimmed in place. */

@@ -281,7 +281,7 @@ int gb_run_lifecycle_run_detached(struct gb_session *session)
         return STATUS_SIGNAL + SIGHUP;
     }
     gb_session_note(session, "terminal closed; the run continues");
-    if (session->pause_wanted) { /* without a terminal nobody can end the pause */
+    if (session->pause_wanted) { /* without a terminal the pause could never end */
         gb_session_toggle_pause(session);
     }
     while (gb_session_live(session)) {
