@@ -171,7 +171,8 @@ bool gb_lab_input_read(struct gb_table **out, const struct gb_lab_input *input,
     *out = NULL;
     if (path == NULL) {
         return option == NULL ||
-               gb_error_set(err, GB_ERR_INPUT, "--%s is for the file of --data", option);
+               gb_error_set(err, GB_ERR_INPUT, "--%s: expected a file given with --data",
+                            option);
     }
     if (!parse(input, &options, err)) {
         return false;

@@ -46,7 +46,8 @@ static bool load_symbols(const char *const *files, const struct symbol *symbols,
         handle = dlopen(*file, RTLD_NOW | RTLD_LOCAL);
     }
     if (handle == NULL) {
-        return gb_error_set(err, GB_ERR_MACHINE, "%s: no %s here", library, files[0]);
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: the library %s cannot be loaded",
+                            library, files[0]);
     }
     for (const struct symbol *symbol = symbols; symbol->name != NULL; symbol++) {
         void *found = dlsym(handle, symbol->name);

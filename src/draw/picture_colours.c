@@ -115,8 +115,9 @@ static bool fit_sorted(struct gb_picture_style_scale *scale, const double *sorte
     } else if (first < count) {
         fit_data(scale, sorted + first, count - first, start);
     } else {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--log: no value above 0; expected with values above 0");
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--log: no value is above 0; a logarithmic scale needs at least one");
     }
     if (scale->log && !(scale->low > 0.0)) {
         return gb_error_set(err, GB_ERR_INPUT,

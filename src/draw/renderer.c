@@ -1,8 +1,9 @@
-/* Pictures of a scene by OpenGL, in tiles, so that memory is bounded.  Each tile has four
- * passes: what every sample sees (index and depth of spheres,
- * rods, facets and edges), the colour of every sample with shadow and occlusion, translucent
- * walls over them, and the mean of the samples of each pixel.  The depths that the light
- * sees are drawn once for all tiles. */
+/* Pictures of a scene by OpenGL, in tiles, so that memory is bounded.  Each tile takes
+ * four passes: the first finds what every sample sees (index and depth of spheres,
+ * rods, facets and edges), the second colours the samples with shadow and occlusion,
+ * the third blends translucent walls over the colours, and the fourth averages the
+ * samples of each pixel.  The shadow map, the depths seen from the light, is drawn once
+ * and serves all tiles. */
 
 #include "draw/renderer.h"
 

@@ -335,9 +335,9 @@ static bool draw_section(struct gb_series *series, const struct gb_state *state,
     if (!(2.0 * radius <= height) || radius > state->die_radius) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "die-section: a specimen of %.4g um has no room for a sphere of "
-            "%.4g um",
-            um * height, 2.0 * um * radius);
+            "die-section: a specimen %.4g um high in a die %.4g um wide has no room "
+            "for a sphere %.4g um in diameter",
+            um * height, 2.0 * um * state->die_radius, 2.0 * um * radius);
     }
     gb_series_init(series, count_cut(state) * CIRCLE + CIRCLE);
     draw_particles(series, state, um);

@@ -269,7 +269,7 @@ static bool read_file(const char *path, GString *text, struct gb_error *err)
     }
     if (text->len > PRESET_BYTES_MAX) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: larger than a preset may be, %d bytes", path,
+                            "%s: larger than %d bytes, the limit for a preset", path,
                             PRESET_BYTES_MAX);
     }
     if (g_str_has_prefix(text->str, byte_order_mark)) {

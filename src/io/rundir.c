@@ -15,9 +15,9 @@
 /* The directory of a run: creation, lock, and removal of its files.
  *
  * Only files that a run writes are ever removed.  They are known by name; any other
- * file makes a directory foreign, and it is not touched.  Replacing a run first checks
- * everything, so that an error changes nothing.  A lock (io/lock.h) shows that a
- * process computes the run.
+ * file makes a directory foreign, and a foreign directory is not touched.  Replacing a
+ * run first checks everything, so that an error changes nothing.  A lock (io/lock.h)
+ * shows that a process computes the run.
  *
  * Order of this file: file names, the checks before a directory is used, and creating,
  * opening and closing it. */

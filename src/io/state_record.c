@@ -304,7 +304,7 @@ static bool count_contacts(struct gb_state *state, const struct gb_record *recor
     if (!item || item->type != GB_RECORD_INT32 || item->columns != 2 ||
         item->rows != state->pair_count) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "world/pair: is missing or of another shape");
+                            "world/pair: is missing or has the wrong type or shape");
     }
     const int32_t *particle = item->data;
     for (int64_t k = 0; k < 2 * state->pair_count; k++) {

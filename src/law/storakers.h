@@ -2,16 +2,16 @@
 #define GB_LAW_STORAKERS_H
 
 /* The contact laws of dies, P3 (1)-(22): Hertz, and Storakers with Hertz' unloading.
- * Only this file has these formulas.  Beds and the laws of single contacts include it
- * after a law/real_*.h.
+ * Only this file has these formulas.  The code for beds (packings in a die) and for
+ * single contacts includes it after one of law/real_*.h, which define `real`.
  *
  * The force is Hertz' force at the elastic part y of the overlap.  With h_x the overlap
  * where (2) and (16) are equal, the loading curve (16) is
  *     y = h_x (h/h_x)^((2+m)/3),
  * which needs one power of a ratio near 1 instead of two powers of h.  Below h_x Hertz'
- * force is the smaller one and y = h; the printed law uses (16) there too.  Unloading
- * and reloading keep the permanent part h - y of the deepest overlap: (19) with (20),
- * integrated. */
+ * force is the smaller one and y = h; the printed law uses (16) there too.  During
+ * unloading and reloading the permanent part h - y keeps the value that it had at the
+ * deepest overlap; this is (19) with (20), integrated. */
 
 #include "law/law_hertz.h"
 

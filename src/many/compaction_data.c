@@ -289,8 +289,7 @@ static bool alloc_rows(struct gb_labdata *measured, const struct gb_table *table
     const size_t quantities = count_quantities(table, &errors);
     const bool weights = gb_table_column(table, "weight", NULL) != NULL;
     if (rows == 0 || rows > GB_LABDATA_ROWS) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%.200s: %zu rows, which must be between 1 and %d",
+        return gb_error_set(err, GB_ERR_INPUT, "%.200s: has %zu rows; expected 1 to %d",
                             gb_table_path(table), rows, GB_LABDATA_ROWS);
     }
     if (quantities == 0) {

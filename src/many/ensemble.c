@@ -1,7 +1,8 @@
-/* Many runs, done by a pool of workers.  Several processes may do the same list: a run
- * belongs to the process that holds the lock of its directory, and what others have
- * done is found in the directories.  The queue submits runs in the order of the list.
- * Runs of other processes are put back into the queue when their process leaves them. */
+/* Many runs, done by a pool of workers.  Several processes may work on the same list.
+ * A run belongs to the process that holds the lock of its directory; what other
+ * processes have finished is read from the directories.  The queue submits runs in the
+ * order of the list.  A run of another process is put back into the queue when that
+ * process gives it up. */
 #include "many/ensemble.h"
 
 #include <errno.h>

@@ -70,10 +70,11 @@ static bool least_exponent(const struct gb_exponent_profile *profile, double *ex
         }
     }
     if (best == 0 || best == GRID_POINTS - 1) {
-        return gb_error_set(err, GB_ERR_NOT_CONVERGED,
-                            "the pressures show no power law of the rate: the best "
-                            "exponent is %s",
-                            best == 0 ? "0, a logarithm" : "4 or more");
+        return gb_error_set(
+            err, GB_ERR_NOT_CONVERGED,
+            "the pressures do not follow a power law in the rate: the best "
+            "exponent is %s",
+            best == 0 ? "0, which means a logarithmic law" : "4 or more");
     }
     return refine(profile, best, exponent) ||
            gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");

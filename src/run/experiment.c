@@ -1,11 +1,12 @@
 /* One simulation: a loading of a packing (solve/loading), measured after every step.
  *
- * An experiment advances in slices of force evaluations, so that its thread can answer
- * between them.  After each step the packing is measured and recorded as a point: a row of
- * curve.csv in SI.  A checkpoint copies everything that a resumed run needs.
+ * An experiment advances in slices, each of a number of force evaluations, so that its
+ * thread can answer requests between slices.  After each step the packing is measured
+ * and recorded as a point: a row of curve.csv in SI.  A checkpoint copies everything
+ * that a resumed run needs.
  *
- * Below: the measures of a point, copies of the packing for pictures and files, then the life
- * of an experiment. */
+ * Below: the measures of a point, copies of the packing for pictures and files, then
+ * the life of an experiment. */
 #include "run/experiment.h"
 
 #include <inttypes.h>

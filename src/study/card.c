@@ -1,7 +1,8 @@
-/* A Drucker-Prager cap card.  Each cell is pressed to every density, unloaded to the middle
- * of its pressure and probed; a surface is fitted to the mean yield points of the cells at
- * each density; the same without each cell gives the intervals (jackknife).  At last the card
- * predicts how the powder is pressed, and is compared with the pressing itself. */
+/* A Drucker-Prager cap card.  Each cell is pressed to every density, unloaded to half
+ * of its mean pressure and probed.  A surface is fitted to the mean yield points of the
+ * cells at each density.  Repeating the fit without each cell in turn gives the
+ * intervals (jackknife).  Finally, the pressing curves that the card predicts are
+ * compared with the simulated ones. */
 
 #include "study/card.h"
 

@@ -237,10 +237,11 @@ static void test_files(void)
     expect_failure("no-such-preset", GB_ERR_INPUT, "no such file or preset; looked in ");
     expect_failure("", GB_ERR_INPUT, "no such file or preset");
     expect_failure(folder, GB_ERR_INPUT, "directory");
-    expect_failure("/dev/zero", GB_ERR_INPUT, "larger than a preset may be");
+    expect_failure("/dev/zero", GB_ERR_INPUT, "the limit for a preset");
     char *path = write_text("[contact]\nmu = 0.1\n");
     g_assert_cmpint(truncate(path, 100 * 1000 * 1000), ==, 0);
-    expect_failure(path, GB_ERR_INPUT, "larger than a preset may be, 1048576 bytes");
+    expect_failure(path, GB_ERR_INPUT,
+                   "larger than 1048576 bytes, the limit for a preset");
     if (geteuid() != 0) { /* root reads everything */
         g_assert_cmpint(chmod(path, 0), ==, 0);
         expect_failure(path, GB_ERR_MACHINE, "Permission denied");

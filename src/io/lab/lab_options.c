@@ -196,7 +196,8 @@ static bool add_key(struct gb_lab_options *options, const char *key, const char 
                     struct gb_error *err)
 {
     if (options->keys == GB_LAB_OPTIONS_KEYS) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.60s: more than %d further columns", key,
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.60s: more than %d columns besides the standard ones", key,
                             GB_LAB_OPTIONS_KEYS);
     }
     struct gb_lab_options_key *to = &options->key[options->keys];

@@ -5,7 +5,8 @@
  * stays complete until particles have moved by half the skin; list_check.c watches that.
  *
  * A build takes these steps:
- *   1. sort the particles into bins that are as wide as the reach (a counting sort),
+ *   1. sort the particles into bins at least as wide as the reach of the list (range of the
+ *      forces plus skin), by a counting sort,
  *   2. scan the bins around each particle for partners of a larger index; a pair also notes
  *      through which of the 27 periodic images of the cell it is nearest,
  *   3. lay the pairs out particle after particle: `near` for those that may touch, `far` for

@@ -10,8 +10,9 @@
 
 /* Relaxation of a world to equilibrium: one table of methods, one stopping rule.
  *
- * The rule (relax.h): the residual at or below the tolerance, in units of
- * numerics.tolerance_scale.  A method only moves the particles after each evaluation. */
+ * The rule: a relaxation ends when the residual is at or below the tolerance, both in
+ * the unit that numerics.tolerance_scale names.  All that a method does is to move the
+ * particles after each evaluation. */
 struct gb_relax;
 struct gb_record;
 

@@ -1,5 +1,5 @@
-/* Drawing of the workbench: header, panes, message line and footer, and the mapping of
- * mouse clicks to what is at a cell.  Each pane is a row of a table with its functions
+/* Draws the workbench (header, panes, message line and footer) and maps a mouse click to
+ * the item under it.  Each pane is a row of a table with its functions
  * for drawing, clicks and the clipboard. */
 #include "tui/app/screen.h"
 
