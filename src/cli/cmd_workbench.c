@@ -50,8 +50,7 @@ void gb_cmd_workbench_views(void)
     for (size_t i = 0; i < gb_views_count(); i++) {
         const struct gb_plot_view *view = gb_views_at(i);
         gb_visible_print(stdout, "%s %s\n", view->key,
-                         view->title_quasistatic != NULL ? view->title_quasistatic
-                                                         : view->title);
+                         view->title_by_step != NULL ? view->title_by_step : view->title);
     }
 }
 

@@ -43,8 +43,8 @@ double gb_law_storakers_transition(const struct gb_law_storakers *law, double ra
 }
 
 /* Elastic part of overlap h above 0 on the curve (16). */
-static double plastic_part(const struct gb_law_storakers *law, double transition,
-                           double h)
+static double elastic_part_on_16(const struct gb_law_storakers *law, double transition,
+                                 double h)
 {
     return transition * gb_portable_pow(h / transition, elastic_power(law->exponent));
 }
@@ -56,14 +56,16 @@ double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radiu
         return 0.0;
     }
     const double transition = gb_law_storakers_transition(law, radius);
-    return gb_law_hertz_force(&law->hertz, radius, plastic_part(law, transition, h));
+    return gb_law_hertz_force(&law->hertz, radius,
+                              elastic_part_on_16(law, transition, h));
 }
 
 /* Elastic part of overlap h on the loading curve. */
 static double elastic_part(const struct gb_law_storakers *law, double radius, double h)
 {
     const double transition = gb_law_storakers_transition(law, radius);
-    return loaded_part(law->printed, h / transition, plastic_part(law, transition, h), h);
+    return loaded_part(law->printed, h / transition,
+                       elastic_part_on_16(law, transition, h), h);
 }
 
 struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law,

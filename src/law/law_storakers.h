@@ -80,7 +80,8 @@ double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double 
                                      double h);
 
 /* Energy that a contact at overlap h <= deepest returns until it opens.  Loading a
- * contact to h and opening it dissipates work(h) - returned(h, h). */
+ * contact to h and opening it dissipates
+ * gb_law_storakers_loading_work(h) - gb_law_storakers_unloading_energy(h, h). */
 double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law,
                                          double radius, double deepest, double h);
 

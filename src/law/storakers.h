@@ -38,10 +38,10 @@ INLINE real elastic_power(real exponent)
     return (2 + exponent) / 3;
 }
 
-/* y on the loading curve. ratio: h/h_x; plastic: y of (16). */
-INLINE real loaded_part(bool printed, real ratio, real plastic, real h)
+/* y on the loading curve. ratio: h/h_x; on_16: y of (16). */
+INLINE real loaded_part(bool printed, real ratio, real on_16, real h)
 {
-    return selected(bit_mask(printed | (ratio > 1)), plastic, h);
+    return selected(bit_mask(printed | (ratio > 1)), on_16, h);
 }
 
 /* dF/dh on the plastic branch, (22). */
@@ -56,11 +56,11 @@ INLINE real damped_force(real elastic, real dashpot)
     return larger(elastic - dashpot, 0);
 }
 
-/* The limit of gb_law_hertz_damping_borne. late: step / GB_LAW_HERTZ_BORNE; square:
- * squared frequency of the contact. */
-INLINE real borne_damping(real stiffness, real late, real square)
+/* Largest damping that the step integrates stably (gb_law_hertz_damping_borne).
+ * step_over_share: step / GB_LAW_HERTZ_BORNE; frequency2: squared frequency of the contact. */
+INLINE real borne_damping(real stiffness, real step_over_share, real frequency2)
 {
-    return stiffness / larger(late * square, (real)1e-300);
+    return stiffness / larger(step_over_share * frequency2, (real)1e-300);
 }
 
 #endif

@@ -49,8 +49,8 @@ bool gb_runner_create_fork(struct gb_runner **out, const char *changes,
  * of its point.  It arrives with the next recorded point of the loading branch, or not
  * at all if the run ends before that. */
 bool gb_runner_forked(struct gb_runner *runner, int64_t *step);
-/* The same, recorded in a directory that must not contain a run.  If the directory
- * cannot be created or a disk fails, this is an event and the run continues. */
+/* As gb_runner_create, recorded in a directory that must not contain a run.  If the
+ * directory cannot be created or a disk fails, this is an event and the run continues. */
 bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
                          const char *directory, struct gb_error *err);
 /* Continues the run in a directory from its last checkpoint.  An engine that works

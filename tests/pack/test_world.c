@@ -19,7 +19,7 @@ static void test_blocks(void)
             end = gb_blocks_end(count, b);
         }
         g_assert_cmpint(end, ==, count);
-        g_assert_true(count < 131072 || blocks >= GB_BLOCKS_SHARED);
+        g_assert_true(count < 131072 || blocks >= GB_BLOCKS_COUNT_MIN);
     }
 }
 

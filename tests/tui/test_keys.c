@@ -92,8 +92,8 @@ static void test_views(void)
         g_assert_cmpuint(strlen(view->key), ==, 1);
         assert_length(view->title, GB_VIEW_TITLE);
         assert_length(view->hint, GB_VIEW_HINT);
-        if (view->title_quasistatic != NULL) {
-            assert_length(view->title_quasistatic, GB_VIEW_TITLE);
+        if (view->title_by_step != NULL) {
+            assert_length(view->title_by_step, GB_VIEW_TITLE);
         }
         g_assert_true(view->applies == NULL || view->excluded != NULL);
         g_assert_true(gb_views_step(gb_views_step(view, 1, &params), -1, &params) ==

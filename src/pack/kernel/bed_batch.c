@@ -87,16 +87,16 @@ INLINE void loaded_parts(const struct gb_bed_law *law, struct bed_terms t,
     }
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
-        const double plastic = transition[k] * exp2_of(b->logarithm[k]);
+        const double on_16 = transition[k] * exp2_of(b->logarithm[k]);
         const double h = larger(larger(b->overlap[k], 0.0), 1e-300);
-        b->loaded[k] = loaded_part(t.printed, b->ratio[k], plastic, h);
+        b->loaded[k] = loaded_part(t.printed, b->ratio[k], on_16, h);
     }
 }
 
-/* Storakers: the plastic part of the overlap; stiffness 1 where it grows, else 0. */
-INLINE void plastic_parts(const struct gb_bed_law *law, struct bed_terms t,
-                          struct gb_bed_batch *restrict b,
-                          struct gb_bed_contacts *restrict c, int64_t slot)
+/* Storakers: the permanent part h - y of the overlap; stiffness 1 where it grows, else 0. */
+INLINE void permanent_parts(const struct gb_bed_law *law, struct bed_terms t,
+                            struct gb_bed_batch *restrict b,
+                            struct gb_bed_contacts *restrict c, int64_t slot)
 {
     double *restrict deepest = c->deepest + slot, *restrict permanent =
                                                       c->permanent + slot;
@@ -106,11 +106,11 @@ INLINE void plastic_parts(const struct gb_bed_law *law, struct bed_terms t,
         const double h = larger(b->overlap[k], 0.0), before = deepest[k];
         const double touching = mask(b->overlap[k] > 0.0);
         const bool loads = h >= before;
-        const double plastic =
+        const double lasting =
             touching * selected(bit_mask(loads), h - b->loaded[k], permanent[k]);
-        b->stiffness[k] = mask(loads & (plastic != 0.0));
+        b->stiffness[k] = mask(loads & (lasting != 0.0));
         deepest[k] = larger(touching * before, h);
-        permanent[k] = plastic;
+        permanent[k] = lasting;
     }
 }
 
@@ -143,6 +143,7 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
             const double loading = plastic_slope(exponent, elastic, h);
             stiffness = yields * loading + (1.0 - yields) * unloading;
         }
+        /* (2 k/m* + L)/3: see gb_bed_tally.stiffest (pack/die/bed.h) */
         const double square =
             (2.0 * (unloading * inverse_mass[k]) + b->held[k]) * (1.0 / 3.0);
         const double borne = borne_damping(unloading, late, square);
@@ -153,7 +154,7 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
         stiffest = square > stiffest ? square : stiffest;
         impact = hits > impact ? hits : impact;
         b->holds[k] = unloading;
-        normal[k] = touching * fn - (1.0 - touching);
+        normal[k] = touching * fn - (1.0 - touching); /* fn where they touch, else -1 */
         b->along[k] = fn;
         if (t.friction) {
             b->stiffness[k] = stiffness;
@@ -167,8 +168,8 @@ INLINE void normal_forces(const struct gb_bed_law *law, struct bed_terms t,
     b->impact = impact;
 }
 
-/* Shear springs rotated into the tangent plane, but shorter by what was normal to it; the
- * shear that follows. */
+/* Projects the shear springs on the tangent plane, which shortens them (advance_shear
+ * restores the length), and computes the shear motion of this step. */
 INLINE void rotate_shear(const struct gb_bed_law *law, struct gb_bed_batch *restrict b,
                          struct gb_bed_contacts *restrict c, int64_t slot)
 {
@@ -196,7 +197,8 @@ INLINE void rotate_shear(const struct gb_bed_law *law, struct gb_bed_batch *rest
     }
 }
 
-/* Shear springs of their former lengths, advanced, and the share that their caps leave. */
+/* Restores the lengths, adds the motion, and finds the share of each spring that its cap
+ * leaves. */
 INLINE void advance_shear(struct gb_bed_batch *restrict b,
                           struct gb_bed_contacts *restrict c, int64_t slot)
 {
@@ -232,7 +234,7 @@ INLINE void shear_forces(struct gb_bed_batch *restrict b,
     for (int k = 0; k < b->n; k++) {
         const double nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
         const double q = b->lever[k], held = b->kept[k];
-        /* + 0: an open contact is as one that was never listed, which has no -0 */
+        /* + 0.0 turns -0 into 0, as in a contact that was never listed */
         const double tx = held * sx[k] + 0.0, ty = held * sy[k] + 0.0;
         const double tz = held * sz[k] + 0.0;
         sx[k] = tx;
@@ -247,13 +249,13 @@ INLINE void shear_forces(struct gb_bed_batch *restrict b,
     }
 }
 
-/* Short loops, as in batch_3d.h. */
+/* Short loops: see pack/kernel/batch/batch_3d.h. */
 INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
                            struct gb_bed_batch *restrict b,
                            struct gb_bed_contacts *restrict c, int64_t slot)
 {
     if (t.storakers) {
-        plastic_parts(law, t, b, c, slot);
+        permanent_parts(law, t, b, c, slot);
     }
     normal_forces(law, t, b, c, slot);
     if (t.friction) {

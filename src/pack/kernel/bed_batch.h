@@ -11,7 +11,7 @@
  * the same law between particles and against walls, with its own friction there. */
 struct gb_bed_law {
     bool storakers;
-    struct gb_law_storakers normal; /* its Hertz part alone unless storakers */
+    struct gb_law_storakers normal; /* without storakers only normal.hertz is set */
     double shear;                   /* k_t over k_n */
     double damping;                 /* xi, share of critical */
     double mu, mu_wall;
@@ -27,8 +27,9 @@ struct gb_bed_contacts {
     double *inverse_mass; /* one over the reduced mass m* */
     double *transition;   /* overlap at which Storakers' law becomes plastic */
     double *deepest, *permanent; /* h_max, and h0 where unloading ends; Storakers only */
-    double *shear[3];            /* force on the first; across the normal of last time */
-    double *normal;              /* f_n of the last evaluation; -1: not touching */
+    double *shear
+        [3]; /* force on the first body, in the tangent plane of the last evaluation */
+    double *normal; /* f_n of the last evaluation; -1: not touching */
 };
 
 enum { GB_BED_HISTORY = 5 }; /* arrays that are history, deepest to shear */

@@ -10,10 +10,11 @@ struct gb_engine;
 /* Blocks of consecutive particles.  Tallies, and in single precision the forces of pairs
  * inside a block, are summed block by block.  The partition follows from the number of
  * particles alone, so the order of the sums, and with it every bit, does not depend on
- * the number of threads.  Larger blocks leave fewer pairs between two blocks; smaller
- * ones distribute better over threads: one block for every automatic thread (world.c),
- * then 64 in all before their size doubles. */
-enum { GB_BLOCKS_SIZE = 512, GB_BLOCKS_SIZE_MAX = 8192, GB_BLOCKS_SHARED = 64 };
+ * the number of threads.  Larger blocks leave fewer pairs between two blocks;
+ * smaller ones distribute better over threads.  A block has at least 512 particles, so that
+ * every automatic thread has one (world.c).  The size doubles, up to 8192, as long as 64
+ * blocks remain. */
+enum { GB_BLOCKS_SIZE = 512, GB_BLOCKS_SIZE_MAX = 8192, GB_BLOCKS_COUNT_MIN = 64 };
 
 /* Fewest particles that are worth a thread, in work on independent particles. */
 enum { GB_BLOCKS_GRAIN = 64 };
@@ -22,7 +23,7 @@ enum { GB_BLOCKS_GRAIN = 64 };
 static inline int64_t gb_blocks_size(int64_t count)
 {
     int64_t size = GB_BLOCKS_SIZE;
-    while (size < GB_BLOCKS_SIZE_MAX && count >= 2 * size * GB_BLOCKS_SHARED) {
+    while (size < GB_BLOCKS_SIZE_MAX && count >= 2 * size * GB_BLOCKS_COUNT_MIN) {
         size *= 2;
     }
     return size;

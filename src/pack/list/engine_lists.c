@@ -26,8 +26,8 @@
 
 /* ---- Build ---- */
 
-/* Room for the records of a longer list, array by array; those that exist stay.  On failure there
- * are none. */
+/* Room for the records of a longer list, array by array; those that exist stay.  On failure
+ * all are freed. */
 static bool grow_contacts(struct gb_contacts *contacts, int64_t capacity,
                           struct gb_error *err)
 {
@@ -135,7 +135,7 @@ struct noting {
     const struct gb_engine *engine;
 };
 
-/* First and last but one slot of part t. */
+/* Slots of part t: from slots[0] up to slots[1], which is not one of them. */
 static void slots_of(const struct noting *noting, int64_t t, int64_t slots[2])
 {
     const int64_t count = noting->engine->particles.count;
@@ -233,7 +233,9 @@ static void find_slots(void *data, int64_t begin, int64_t end)
             k++;
         }
         const bool stays = k < near->start[i + 1] && near->other[k] == j;
-        carry->pair[c][1] = stays ? (int32_t)k : -1; /* the search reads the first only */
+        carry->pair[c][1] =
+            stays ? (int32_t)k
+                  : -1; /* the new slot; other threads search pair[..][0] only */
     }
 }
 
@@ -257,7 +259,7 @@ INLINE void move_plane(char *plane, size_t size, const struct gb_contact_carry *
     }
 }
 
-/* `none` in all slots before `slots` to which no record moved. */
+/* Sets every slot below `slots` to `none`, except those that received a record. */
 INLINE void clear_others(char *plane, size_t size, const struct gb_contact_carry *carry,
                          int64_t slots, const void *none)
 {
@@ -267,7 +269,7 @@ INLINE void clear_others(char *plane, size_t size, const struct gb_contact_carry
         for (; k < to; k++) {
             memcpy(plane + (size_t)k * size, none, size);
         }
-        k += to >= 0;
+        k += to >= 0; /* skips the slot of this record */
     }
 }
 

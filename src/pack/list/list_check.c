@@ -22,7 +22,8 @@
 /* ---- Range of the check ---- */
 
 /* Pairs count as touching, or as within the cutoff, from a distance larger by this (d): a
- * sweep in single precision has a coarser resolution. */
+ * sweep in single precision has a coarser resolution.  It also bounds the rounding of
+ * squared distances (d^2). */
 #define TOLERANCE 1e-6
 
 /* Largest number of bins to each side. */
@@ -49,7 +50,7 @@ struct search {
     double near, far; /* d */
 };
 
-static struct search search_of(const struct gb_engine *engine)
+static struct search search_radii(const struct gb_engine *engine)
 {
     double reach;
     const double left = skin_left(engine, &reach), strain = 1.0 + engine->list.strain;
@@ -67,7 +68,7 @@ enum gb_list_check_verdict gb_list_check_judge(const struct gb_engine *engine,
     if (displacement < margin) {
         return GB_LIST_CHECK_VALID;
     }
-    return displacement < search_of(engine).far ? GB_LIST_CHECK_UNCERTAIN
+    return displacement < search_radii(engine).far ? GB_LIST_CHECK_UNCERTAIN
                                                 : GB_LIST_CHECK_INVALID;
 }
 
@@ -206,7 +207,7 @@ static void prefetch_pairs(const struct gb_engine *engine, int64_t i,
     }
 }
 
-static void check_candidates(const struct gb_engine *engine, int64_t i,
+static void flush_candidates(const struct gb_engine *engine, int64_t i,
                              struct candidates *candidates,
                              struct gb_missing_pairs *missing)
 {
@@ -291,20 +292,21 @@ static void search_partners(const struct gb_engine *engine, int64_t i, int span,
             prefetch_particle(engine, particle[k]);
             candidates.particle[candidates.count++] = particle[k];
             if (candidates.count == CANDIDATES) {
-                check_candidates(engine, i, &candidates, missing);
+                flush_candidates(engine, i, &candidates, missing);
             }
         }
     }
-    check_candidates(engine, i, &candidates, missing);
+    flush_candidates(engine, i, &candidates, missing);
 }
 
 /* ---- All escaped particles of a block ---- */
 
-/* Escaped particles up to which the check is always worth it, and beyond them one of so
- * many particles; inside one block more, as one region can be more active than the rest. */
-enum { ESCAPED_BASE = 20 };
-
-enum { PARTICLES_PER_ESCAPED = 256, PARTICLES_PER_ESCAPED_BLOCK = 8 };
+/* A check pays up to so many escaped particles ... */
+enum {
+    ESCAPED_BASE = 20,
+    PARTICLES_PER_ESCAPED = 256,    /* ... and one more for so many particles; */
+    PARTICLES_PER_ESCAPED_BLOCK = 8 /* in one block, as a region can be more active */
+};
 
 /* Squared non-affine displacement of particle i since the build, d^2. */
 static double displacement2(const struct gb_engine *engine, int64_t i, bool tilted)
@@ -318,7 +320,8 @@ static double displacement2(const struct gb_engine *engine, int64_t i, bool tilt
     return gb_neighbour_list_displacement2_scaled(&engine->list, i, x);
 }
 
-/* True if a group begins with particle i whose bound excludes an escaped particle. */
+/* True if particle i begins a group whose bound shows that none of its particles has
+ * escaped. */
 static bool group_inside(const struct gb_engine *engine, int64_t i, double margin)
 {
     return gb_engine_state_moved(&engine->state) && i % GB_F32_STATE_GROUP == 0 &&
@@ -330,7 +333,7 @@ static bool group_inside(const struct gb_engine *engine, int64_t i, double margi
 static void find_missing(const struct gb_engine *engine, int64_t begin, int64_t end,
                          struct gb_missing_pairs *missing)
 {
-    const double margin = gb_list_check_margin(engine), near = search_of(engine).near;
+    const double margin = gb_list_check_margin(engine), near = search_radii(engine).near;
     const bool tilted = gb_cell_tilted(&engine->list.unit);
     *missing = (struct gb_missing_pairs){0};
     for (int64_t i = begin; i < end && !missing->incomplete; i++) {
@@ -345,8 +348,8 @@ static void find_missing(const struct gb_engine *engine, int64_t begin, int64_t 
         missing->escaped++;
         missing->incomplete =
             PARTICLES_PER_ESCAPED_BLOCK * (missing->escaped - ESCAPED_BASE) > end - begin;
-        /* of a pair that moved far apart, one at least finds the other: the one that moved
-         * farther searches two bins */
+        /* of a missing pair at least the particle that moved farther must find the other, so
+         * it searches two bins */
         search_partners(engine, i, square < near * near ? 1 : 2, missing);
     }
 }

@@ -212,7 +212,9 @@ static void slots_insert(struct gb_neighbour_list *list, struct gb_pair_list *pa
             pairs->first[k] = own.pair[p]->first;
             pairs->other[k] = own.pair[p]->other;
             pairs->image[k] = (uint8_t)own.pair[p]->image;
-            pairs->row[k] = own.pair[p]->other; /* of a pair that crosses: set later */
+            pairs->row[k] =
+                own.pair[p]
+                    ->other; /* of a pair of two blocks: gb_f32_state_assign_rows sets it */
         }
         shift_starts(pairs, list->count, b, &own, 1);
     }
@@ -340,7 +342,7 @@ static bool assign_slots(const struct gb_neighbour_list *list, struct plan *plan
         const bool in_far = slots_holds(list, &list->far, pair);
         if (slots_holds(list, &list->near, pair) || pair->image < 0 ||
             (in_far && !pair->near)) {
-            return false; /* it is there, but with another image */
+            return false; /* listed with another image, or farther than one edge */
         }
         if (pair->near) {
             slots_add(&plan->near, list, &list->near, pair);

@@ -952,7 +952,7 @@ double gb_neighbour_list_displacement2_tilted(const struct gb_neighbour_list *li
     return gb_vec_dot(moved, moved);
 }
 
-/* The same after a shear. */
+/* displacement() for a cell that was sheared. */
 static void displacement_sheared(const struct gb_neighbour_list *list,
                                  const double *position, int64_t begin, int64_t end,
                                  double *total, double *most)

@@ -19,7 +19,8 @@ struct gb_neighbour_grid {
     double inverse[3];   /* one over the width of a bin, 1/d */
     bool tilted;         /* then, instead: */
     double to_bin[3][3]; /* bins along each edge vector from x, 1/d */
-    bool plain;          /* the periodic image of a pair follows from its bins */
+    bool
+        plain; /* more than two bins along each periodic axis: a pair of bins has one image */
 };
 
 /* How the pairs of a particle are found from its second partner. */

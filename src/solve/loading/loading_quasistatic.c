@@ -1,5 +1,8 @@
 /* The mode `quasistatic`: a periodic cell strained in steps, each relaxed to equilibrium.  First the
- * schedule: loading, unloading branches, and the goals that end it.  Then the mode. */
+ * schedule: loading, unloading branches, and the goals that end it.  Then the mode.
+ *
+ * A step: advance() strains the cell if a strain is due, relaxes it in slices, checks for jumps
+ * and reports a point.  after_point() decides the next strain and saves the way back. */
 #include "solve/loading/loading_quasistatic.h"
 
 #include <math.h>

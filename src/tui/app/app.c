@@ -284,6 +284,8 @@ static bool poll_stderr(struct gb_app *app)
     return found;
 }
 
+/* A key edits the parameters, and the session starts a quick cell with them.  A refresh reads
+ * the snapshots of the engines, and a frame draws them. */
 static void loop(struct gb_app *app)
 {
     while (!app->leave) {

@@ -124,7 +124,7 @@ void gb_panel_params_edit_revert(struct gb_panel_params *panel,
     snprintf(message->text, sizeof message->text, "%s.%s is %.256s again, as in the run",
              field->group, field->key, value[0] != '\0' ? value : "empty");
     message->style = GB_STYLE_PLAIN;
-    gb_session_recall_answer(session);
+    gb_session_show_edited(session);
 }
 
 void gb_panel_params_edit_changed(struct gb_session *session, struct gb_message *message)
@@ -132,7 +132,7 @@ void gb_panel_params_edit_changed(struct gb_session *session, struct gb_message 
     struct gb_error err = {0};
     message->text[0] = '\0';
     if (gb_params_check(gb_session_params(session), &err)) {
-        gb_session_recall_answer(session);
+        gb_session_show_edited(session);
     } else {
         snprintf(message->text, sizeof message->text, "conflicts with %s", err.text);
         message->style = GB_STYLE_WARN;

@@ -718,8 +718,7 @@ static void write_title(const struct gb_panel_plot *panel,
     const bool pressure = across || view->options & GB_VIEW_PRESSURE_AXIS;
     const bool dynamic = gb_loading_kind_of(shown.params)->given_rate;
     snprintf(title, size, "%s %s%s%s%s%s", view->key,
-             view->title_quasistatic != NULL && !dynamic ? view->title_quasistatic
-                                                         : view->title,
+             view->title_by_step != NULL && !dynamic ? view->title_by_step : view->title,
              pressure && panel->log ? " (log)" : "",
              gb_panel_plot_ranges_any(&panel->ranges) ? ", Z" : "",
              shown.quick && !pressure ? ", quick cell" : "",

@@ -528,7 +528,7 @@ static bool recall_quick(struct gb_session *session, const struct gb_params *par
     return true;
 }
 
-void gb_session_recall_answer(struct gb_session *session)
+void gb_session_show_edited(struct gb_session *session)
 {
     const struct gb_params params = *gb_session_params(session);
     session->start_due = false;

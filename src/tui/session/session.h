@@ -157,7 +157,7 @@ bool gb_session_whatif_request(struct gb_session *session, const char *text,
 /* After a change of the parameters: shows the run or quick cell with these parameters
  * if it is kept in memory, else starts a quick cell.  A run that was stopped because it
  * was replaced continues if it is stored in a directory. */
-void gb_session_recall_answer(struct gb_session *session);
+void gb_session_show_edited(struct gb_session *session);
 
 /* Goes to the parameters before (-1) or after (1) a change and shows their results.
  * text receives what has changed, or that there is nothing.  False: nothing has

@@ -8,7 +8,8 @@
 
 /* Averages against density, and the values of the last state below the axes. */
 
-enum { CURVES = 3, LINES = 5, LINE = 96 };
+/* Lines: density, moduli, axial constants, progress. */
+enum { CURVES = 3, LINES_MAX = 5, LINE_SIZE = 96 };
 
 /* A column and its symbol. */
 struct quantity {
@@ -22,13 +23,13 @@ struct drawing {
     const struct quantity *quantity; /* CURVES */
     double *x, *y[CURVES];
     size_t count;
-    char line[LINES][LINE];
+    char line[LINES_MAX][LINE_SIZE];
     int lines;
 };
 
 static const struct quantity averages[CURVES] = {
     {"E_GPa", "E"}, {"K_GPa", "K"}, {"G_GPa", "G"}};
-/* 2D has no averages over directions; the constants are drawn instead. */
+/* 2D has no averages over directions: its constants are drawn. */
 static const struct quantity constants[CURVES] = {
     {"axial_C33_GPa", "C33"}, {"axial_C11_GPa", "C11"}, {"axial_C44_GPa", "C44"}};
 
@@ -49,7 +50,7 @@ static void add_line(struct drawing *drawing, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    vsnprintf(drawing->line[drawing->lines++], LINE, format, list);
+    vsnprintf(drawing->line[drawing->lines++], LINE_SIZE, format, list);
     va_end(list);
 }
 
@@ -179,6 +180,8 @@ void gb_view_moduli_draw(struct gb_panel_plot *panel, const struct gb_session *s
     add_numbers(&drawing);
     add_progress(&drawing);
     if (!take_values(&drawing)) {
+        gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT,
+                     "no memory for the curves");
         return;
     }
     draw_curves(&drawing);

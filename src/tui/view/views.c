@@ -9,6 +9,7 @@ static bool has_rod_law(const struct gb_params *params)
     return params->normal == GB_NORMAL_ROD;
 }
 
+/* Scenes whose parameters may change are those that record tensors. */
 static bool has_tensors(const struct gb_params *params)
 {
     return gb_loading_kind_of(params)->changes;
@@ -19,6 +20,7 @@ static bool has_cell(const struct gb_params *params)
     return gb_loading_kind_of(params)->periodic_cell;
 }
 
+/* The first row is the view at the start, and the one that shows insets. */
 static const struct gb_plot_view views[] = {
     {
         .key = "1",
@@ -49,7 +51,7 @@ static const struct gb_plot_view views[] = {
         .key = "4",
         .help = "pressure against time, or against step",
         .title = "Pressure against time",
-        .title_quasistatic = "Pressure against step",
+        .title_by_step = "Pressure against step",
         .hint = "Left and Right move a cursor along the points; L log or linear",
         .abscissa = GB_VIEW_ELAPSED,
         .options = GB_VIEW_PRESSURE_AXIS,

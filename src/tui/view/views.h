@@ -19,7 +19,7 @@ enum gb_view_abscissa {
     GB_VIEW_NO_CURSOR,
     GB_VIEW_DENSITY,
     GB_VIEW_ELAPSED,
-    GB_VIEW_OWN,
+    GB_VIEW_OWN,     /* the x axis of the view itself */
     GB_VIEW_SETTINGS /* rows of a chart or of the stability instead of points */
 };
 
@@ -28,18 +28,19 @@ enum { GB_VIEW_TITLE = 43, GB_VIEW_HINT = 120 };
 
 enum gb_view_option {
     GB_VIEW_PRESSURE_AXIS = 1,   /* y is the pressure: L switches its axis */
-    GB_VIEW_PRESSURE_ACROSS = 4, /* x is the pressure, the same */
-    GB_VIEW_INSET = 2            /* also drawn below the curve, if there is room */
+    GB_VIEW_PRESSURE_ACROSS = 2, /* x is the pressure: L switches its axis */
+    GB_VIEW_INSET = 4            /* also drawn below the curve, if there is room */
 };
 
-/* One row per view; key, help, title, footer hint, cursor, insets and `v` use it.  A
- * new view needs a file, a row in views.c and a line in meson.build. */
+/* One row per view; key, help, title, footer hint, cursor, insets and `v` use it.  CONTRIBUTING.md
+ * has the recipe for a new view. */
 struct gb_plot_view {
-    const char *key;               /* digit or letter */
-    const char *help;              /* in the list of keys, at most 49 characters */
-    const char *title;             /* of the pane, at most GB_VIEW_TITLE characters */
-    const char *title_quasistatic; /* title for other scenes; NULL: the same */
-    const char *hint;              /* message, at most GB_VIEW_HINT characters */
+    const char *key;   /* digit or letter */
+    const char *help;  /* in the list of keys, at most 49 characters */
+    const char *title; /* of the pane, at most GB_VIEW_TITLE characters */
+    const char
+        *title_by_step; /* title where x is the step, not the time; NULL: the same */
+    const char *hint;   /* message, at most GB_VIEW_HINT characters */
     enum gb_view_need need;
     enum gb_view_abscissa abscissa;
     int options; /* bits of enum gb_view_option */
@@ -54,7 +55,7 @@ size_t gb_views_count(void);
 const struct gb_plot_view *gb_views_at(size_t index);
 /* The view of a key; NULL: none. */
 const struct gb_plot_view *gb_views_find(const char *key);
-/* The first view that needs this. */
+/* The first view that needs this; the first of all if there is none. */
 const struct gb_plot_view *gb_views_with(enum gb_view_need need);
 /* The next (1) or previous (-1) view that applies to the scene. */
 const struct gb_plot_view *gb_views_step(const struct gb_plot_view *view, int step,
