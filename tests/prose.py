@@ -222,7 +222,7 @@ PHRASES = re.compile(r"""
     goes[ ]on\b|\bgo[ ]on\b|being[ ]made|takes[ ]it[ ]away|misfit[ ]\S+[ ]points|time[ ]of[ ]work
     |(contacts|force)[ ]a[ ]particle|(sweeps|evaluations|steps)[ ]a[ ]second|100[ ]%[ ]in\b
     |the[ ]parameter[ ](up|down)\b|does[ ]not[ ]fit[ ]the[ ]rest|accepted[ ][-\d%]\S*[ ]to\b
-    |accepted[ ]a[ ]value|is[ ]enough,|changes[ ]behind|nothing[ ]beats|error[ ]against[ ]cost
+    |\b(is|are)[ ]accepted\b|accepted[ ]a[ ]value|is[ ]enough,|changes[ ]behind|nothing[ ]beats|error[ ]against[ ]cost
     |over[ ]a[ ]bridge|without[ ]bridge\b|pressure[ ]of[ ]the[ ]contacts|force[ ]over[ ]the[ ]mean[ ]of
     |lateral[ ]over|breaks[ ]a[ ]bridge|released[ ]at|share[ ]of[ ]the[ ](number|volume)\b(?![ ]that)
     |change[ ]of[ ]height|energy[ ]error|floor[ ]bears|least[ ]gap|way[ ]of[ ]the[ ]punch

@@ -331,7 +331,7 @@ static void count_finished(struct gb_team *team, int number, int64_t items)
     }
 }
 
-/* Takes the items of the own share, then those of the other shares. */
+/* Takes the items of its own share, then items of the other shares. */
 static void work_off(struct gb_team *team, int number)
 {
     const double began_s = gb_clock_s();

@@ -30,13 +30,13 @@ static bool check_request(const struct request *request, char **words, struct ex
 {
     if (words == NULL || words[0] == NULL || words[1] != NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "export: one run directory or state file is accepted");
+                            "export: expected one run directory or state file");
     }
     if (request->output == NULL || request->format == NULL) {
         return gb_error_set(err, GB_ERR_INPUT, "export needs --format NAME and -o FILE");
     }
     if (request->all && request->at != NULL) {
-        return gb_error_set(err, GB_ERR_INPUT, "--all and --at: one of them is accepted");
+        return gb_error_set(err, GB_ERR_INPUT, "--all and --at: expected one of them");
     }
     job->source = words[0];
     job->format = gb_export_find(request->format, err);

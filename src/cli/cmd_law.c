@@ -203,7 +203,7 @@ static const char examples[] =
     "  greenbody law critical-step p3-pair --range h_m=0:200nm:101 \\\n"
     "    --vary material.hardening=0,0.05,0.1,0.2";
 
-/* Appends the laws in reduced units, or those of a pair. */
+/* Appends the laws in reduced units, or the laws of a pair. */
 static void append_laws(GString *text, bool pair)
 {
     size_t count = 0;

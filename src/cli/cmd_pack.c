@@ -148,7 +148,7 @@ static bool take(const struct gb_experiment *experiment, struct gb_state **out,
     return true;
 }
 
-/* Keeps a state if one is due. */
+/* Keeps a state if the point is one of the list. */
 static bool keep(struct gb_pack_bed *bed, const struct gb_experiment *experiment,
                  double every_s, struct gb_error *err)
 {

@@ -54,7 +54,7 @@ static bool parse_background(const char *text, enum gb_background *background,
         }
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "--ground %.80s: white, dark or transparent is accepted", text);
+                        "--ground %.80s: expected white, dark or transparent", text);
 }
 
 static bool parse_style(const struct request *request,
@@ -90,7 +90,7 @@ static bool parse_request(const struct request *request,
         request->sequence ? GB_PLOTTING_SEQUENCE : GB_PLOTTING_PICTURE;
     if (gb_plotting_format_find(request->output, use) == NULL) {
         char *names = gb_plotting_format_names(use);
-        gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in %s is accepted",
+        gb_error_set(err, GB_ERR_INPUT, "-o %.300s: expected a name ending in %s",
                      request->output, names);
         g_free(names);
         return false;
@@ -183,7 +183,7 @@ static bool take_sequence(const struct request *request,
             "--sequence takes one run directory, without --at and --rose");
     }
     if (!(request->fps >= 0.1 && request->fps <= 100.0)) {
-        return gb_error_set(err, GB_ERR_INPUT, "--fps %g: 0.1 to 100 is accepted",
+        return gb_error_set(err, GB_ERR_INPUT, "--fps %g: expected 0.1 to 100",
                             request->fps);
     }
     bool done =

@@ -33,7 +33,7 @@ static const struct {
      "(loading.until, a pressure of loading.unload_from) or beyond one (also the end of a leg "
      "of loading.path), or with points that are not in "
      "equilibrium; the results are kept"},
-    {"2", "bad usage or input; one line with the rejected value and what is accepted"},
+    {"2", "bad usage or input; one line with the rejected value and what is expected"},
     {"3", "the machine: disk full, no permission, out of memory"},
     {"129", "stopped by SIGHUP; points and state are kept"},
     {"130", "stopped by SIGINT; points and state are kept"},

@@ -1,6 +1,6 @@
 /* Arranges the page of a figure: ranges of the axes, frame, inset, second panel, legend.  Text
  * sizes are fixed; the frame gets what they leave.  A raster of the frame marks what the curves
- * cover; a label beside its line, or the legend, takes free cells of it. */
+ * cover; a label next to its line, or the legend, takes free cells of it. */
 
 #include "draw/figure_page.h"
 
@@ -608,7 +608,7 @@ static double names_height(const struct gb_figure_page *page)
                 figure->map != NULL ? name_height(page, figure->map->label) : 0.0);
 }
 
-/* The scale of a second axis along that of the first. */
+/* The scale of a second axis along the first axis. */
 void gb_figure_page_fit_second(const struct gb_figure_axis_scale *first, double factor,
                                struct gb_figure_axis_scale *scale)
 {
@@ -751,14 +751,14 @@ static void inset_range(const struct gb_figure *figure, double *low, double *hig
 
 static const double inset_tick_size = 7.4;
 static const double margin = 12.0;
-static const double legend_most = 0.3; /* of the page, beside an inset */
+static const double legend_most = 0.3; /* of the page, next to an inset */
 /* Widest legend right of the frame, with a second axis there, of the page in print and of
  * others; a wider one stands below the axes. */
 static const double beside_most[2] = {0.36, 0.5};
 /* Height over width of the frame, where the height of the page is free. */
 static const double frame_shape = 0.62;
 
-/* Height of the panel below over that of both, and the gap between them. */
+/* Height of the lower panel over the height of both, and the gap between them. */
 static const double below_share = 0.28;
 static const double below_gap = 7.0;
 

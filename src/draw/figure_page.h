@@ -11,7 +11,7 @@
 
 enum { GB_FIGURE_PAGE_LABELS_COLUMNS = 4 };
 
-/* Labels of the curves: beside the lines where all of them have space, a legend for the
+/* Labels of the curves: next to the lines where all of them have space, a legend for the
  * rest, in a free part of the frame or right of it. */
 struct gb_figure_labels {
     double (*at)[4];  /* box of each label; right end 0: in the legend */
@@ -58,7 +58,7 @@ struct gb_figure_page {
 
 /* Name of an axis with the power of ten of its tick labels; g_free. */
 char *gb_figure_page_name(const char *label, const struct gb_figure_axis_scale *scale);
-/* The scale of a second axis along that of the first. */
+/* The scale of a second axis along the first axis. */
 void gb_figure_page_fit_second(const struct gb_figure_axis_scale *first, double factor,
                                struct gb_figure_axis_scale *scale);
 /* Width right of the frame that the second axis takes; 0 without one. */

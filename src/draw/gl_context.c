@@ -1,7 +1,7 @@
 /* OpenGL contexts without a window.  Two libraries have them: OSMesa, Mesa's software renderer
  * without a window system (until Mesa 25.0), and EGL with its software device.  Both are
  * loaded at run time, and so are the functions of OpenGL. */
-#include "draw/gl_context.h" /* types of the functions, before those of OSMesa */
+#include "draw/gl_context.h" /* types of the functions, before the header of OSMesa */
 
 #if GB_WITH_EGL
 #include <EGL/egl.h>

@@ -27,8 +27,8 @@ bool gb_image_create(struct gb_image **out, int width, int height, struct gb_err
     *out = NULL;
     if (!side_fits(width) || !side_fits(height)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "an image of %d x %d pixels: %d to %d a side are accepted",
-                            width, height, GB_IMAGE_MIN, GB_IMAGE_MAX);
+                            "an image of %d x %d pixels: expected %d to %d a side", width,
+                            height, GB_IMAGE_MIN, GB_IMAGE_MAX);
     }
     struct gb_image *image = gb_alloc_array(1, sizeof *image, err);
     if (image == NULL) {
@@ -65,7 +65,7 @@ void gb_image_swap_red_blue(struct gb_image *image)
     }
 }
 
-/* Up to five digits; moves *text behind them. */
+/* Up to five digits; moves *text past them. */
 static bool read_side(const char **text, int *side)
 {
     int value = 0;
@@ -85,10 +85,9 @@ bool gb_image_parse_size(const char *text, int *width, int *height, struct gb_er
     int w = 0;
     int h = 0;
     if (!read_side(&at, &w) || *at++ != 'x' || !read_side(&at, &h) || *at != '\0') {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "--size %s: WIDTHxHEIGHT in pixels is accepted, %d to %d a side", text,
-            GB_IMAGE_MIN, GB_IMAGE_MAX);
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--size %s: expected WIDTHxHEIGHT in pixels, %d to %d a side",
+                            text, GB_IMAGE_MIN, GB_IMAGE_MAX);
     }
     *width = w;
     *height = h;

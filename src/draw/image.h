@@ -45,12 +45,12 @@ struct gb_image_journal {
     const char *source;                     /* the guide that has them */
 };
 
-/* The last row has no name.  Widths are called by the name, "-1.5" or "-2" behind it. */
+/* The last row has no name.  Widths are called by the name followed by "-1.5" or "-2". */
 extern const struct gb_image_journal gb_image_journals[];
 
 /* width      "8cm", "80 mm", "3.3 in", or a column as "elsevier" or "elsevier-2"
  * per_inch   100 to 1200
- * Errors: GB_ERR_INPUT saying what is accepted, also for more pixels than an image has. */
+ * Errors: GB_ERR_INPUT with the expected values, also for more pixels than an image has. */
 bool gb_image_parse_print(const char *width, int per_inch, struct gb_image_print *size,
                           struct gb_error *err);
 

@@ -22,7 +22,7 @@ static const int power[GB_ROSE_TERMS][3] = {
     {0, 3, 1}, {0, 1, 3}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2},
 };
 
-/* The first five terms are those of the plane y = 0. */
+/* The first five terms are the terms of the plane y = 0. */
 enum { PLANAR_TERMS = 5 };
 
 static double raise(double x, int exponent)

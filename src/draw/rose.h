@@ -33,7 +33,7 @@ double gb_rose_at(const struct gb_rose *rose, const double direction[3]);
  * a sphere of radius 1; the rings have that radius.  Of a packing in 2D it is a figure in
  * the plane of x and z, seen along y, with one ring. */
 
-/* Fits the contacts of a packing.  Errors: those of gb_rose_fit. */
+/* Fits the contacts of a packing.  Errors: see gb_rose_fit. */
 bool gb_rose_of_state(struct gb_rose *rose, const struct gb_state *state,
                       struct gb_error *err);
 

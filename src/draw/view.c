@@ -57,9 +57,9 @@ bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint, struct gb_e
     known = known && (by_name || parse_angles(direction, &result));
     if (!known) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "--view %s: not a view; corner, front, side, top or "
-                            "AZIMUTH,ELEVATION in degrees (-360..360, -90..90) are "
-                            "accepted, with ,flat for no perspective",
+                            "--view %s: expected corner, front, side, top or "
+                            "AZIMUTH,ELEVATION in degrees (-360..360, -90..90), with "
+                            ",flat for no perspective",
                             text);
     }
     *viewpoint = result;

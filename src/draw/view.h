@@ -17,7 +17,7 @@ struct gb_viewpoint {
 
 /* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in
  * degrees; ",flat" behind any of them makes it orthographic.  Errors: GB_ERR_INPUT
- * saying what is accepted. */
+ * saying what is expected. */
 bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint,
                    struct gb_error *err);
 

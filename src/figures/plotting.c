@@ -1,4 +1,4 @@
-/* Writes figures to files, with their data beside them, and adds measured points to a figure.
+/* Writes figures to files, with their data next to them, and adds measured points to a figure.
  * The table below has the output formats of figures, pictures and sequences. */
 #include "figures/plotting.h"
 
@@ -146,8 +146,8 @@ bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
 {
     if (gb_plotting_format_find(output, GB_PLOTTING_FIGURE) == NULL) {
         char *names = gb_plotting_format_names(GB_PLOTTING_FIGURE);
-        gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in %s is accepted",
-                     output, names);
+        gb_error_set(err, GB_ERR_INPUT, "-o %.300s: expected a name ending in %s", output,
+                     names);
         g_free(names);
         return false;
     }

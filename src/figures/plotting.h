@@ -17,7 +17,7 @@ struct gb_plotting_format {
     const char *extension; /* with its dot */
     const char *doc;
     unsigned uses; /* sum of the above */
-    /* of a figure; NULL: only the data, which every figure has beside it */
+    /* of a figure; NULL: only the data, which every figure has in a file next to it */
     gb_figure_writer *figure;
     const struct gb_frame_writer *frames; /* of a sequence; NULL: none */
     const char *video_filter;             /* of ffmpeg; NULL: no video */

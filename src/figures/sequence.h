@@ -12,7 +12,7 @@ struct gb_frame_output {
     double frames_per_s;
 };
 
-/* Methods of a kind of file; the writer is its own struct behind void. */
+/* Methods of a kind of file; `void *` points to the writer's own struct. */
 struct gb_frame_writer {
     bool (*open)(void **writer, const struct gb_frame_output *output,
                  const struct gb_state *first, struct gb_error *err);

@@ -797,7 +797,7 @@ static void note_fits(struct gb_series *series, const struct gb_series_powder *o
     }
 }
 
-/* Columns of the points; returns that of the pressures. */
+/* Columns of the points; returns the column of the pressures. */
 static double *point_columns(struct gb_series *series, const struct gb_series_powder *one,
                              size_t number, double **density, double **error)
 {
@@ -831,7 +831,7 @@ static void draw_equation(struct gb_series *series, const struct gb_series_powde
         true;
 }
 
-/* Points of a run are hollow beside their curves, measured ones are black. */
+/* Points of a run are hollow, next to their curves; measured ones are black. */
 static void draw_points(struct gb_series *series, const struct gb_series_powder *one,
                         const double *column[3], int style)
 {

@@ -20,7 +20,7 @@
 
 /* Longest time between two calls of callbacks->cancelled. */
 static const double poll_s = 0.2;
-/* The caller is told of a run that has been waited for this long. */
+/* Waiting for a run this long is reported to the caller. */
 static const double patience_s = 60.0;
 
 bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replicas,

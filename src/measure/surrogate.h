@@ -24,7 +24,7 @@ size_t gb_surrogate_terms(size_t variables, enum gb_surrogate_order order);
  *
  * at      points x variables; values of about -1 to 1 keep it well conditioned
  * value   points x outputs, finite
- * gb_surrogate_finish is due.  Errors: GB_ERR_INPUT (fewer points than terms, or points
+ * gb_surrogate_finish must be called.  Errors: GB_ERR_INPUT (fewer points than terms, or points
  * that do not determine all terms), GB_ERR_MEMORY. */
 bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t outputs,
                       enum gb_surrogate_order order, const double *at,
@@ -37,7 +37,7 @@ void gb_surrogate_finish(struct gb_surrogate *surrogate); /* zeroed is fine */
 struct gb_estimate_problem {
     size_t variables, data, seeds;
     const double *value, *error; /* of the data; error NULL: from the scatter */
-    const double *weight;        /* beside the errors; NULL: 1.  The fit follows it, the
+    const double *weight; /* in addition to the errors; NULL: 1.  The fit follows it, the
                                         errors of the variables contain what it costs */
     const struct gb_surrogate *seed; /* seeds of them, 2 or more */
     double low[GB_SURROGATE_VARIABLES], high[GB_SURROGATE_VARIABLES]; /* box of the fit */
@@ -54,7 +54,7 @@ struct gb_estimate {
     double chi_squared, rms;
 };
 
-/* The half width of an interval is that of Student's t.  Where the misfit, with the other
+/* The half width of an interval follows Student's t.  Where the misfit, with the other
  * variables fitted again, does not rise as such an interval expects, it ends where the
  * misfit has risen by that much (profile of the likelihood).  Outside of the box, where
  * the surrogates do not hold, it ends as expected.  It never leaves least and most.

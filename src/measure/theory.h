@@ -47,7 +47,7 @@ struct gb_hardening {
 
 /* The law from a curve of pressing: densities that rise, pressures in Pa; points whose
  * pressure is not positive carry no law and are left out, but the first density is where
- * shear begins.  gb_theory_hardening_finish is due.
+ * shear begins.  gb_theory_hardening_finish must be called.
  *
  * Errors: GB_ERR_INPUT (densities that do not rise or lie outside (0, 1), fewer than two
  * points), GB_ERR_MEMORY. */

@@ -56,7 +56,7 @@ static double second_per_time(const struct gb_loading *loading)
                         : loading->model->dynamics.second_per_time;
 }
 
-/* Pressures beside the normal ones, strain of the cell, fabric of the contacts. */
+/* Shear pressures, strain of the cell, fabric of the contacts. */
 static void measure_tensors(const struct gb_loading *loading, const double pressure[3][3],
                             const struct gb_fabric *fabric, struct gb_point *point)
 {

@@ -39,7 +39,7 @@ static const double rdf_reach = 5.0;
 /* Share of the array that is planned for, because the front may be denser than the mean. */
 static const double filling = 0.9;
 
-/* A slab behind the front less deep than this would look full of holes. */
+/* A slab less deep than this, measured from its front, would look full of holes. */
 static const double depth_least = 2.5;
 
 /* The part of the cell that is shown: all of its front, as deep as fits; of a very large

@@ -31,7 +31,7 @@
  * Each seed gives a quadratic surrogate of all values; their mean is fitted to the data,
  * the centre moves to the fit, the region shrinks to a few standard errors.  The scatter
  * between seeds at the best fit is the noise of the simulation; it enters the intervals
- * beside the errors of the data.  A coarse stage (small cells) finds the region for the
+ * in addition to the errors of the data.  A coarse stage (small cells) finds the region for the
  * full one. */
 
 /* --- points that were simulated ------------------------------------------------------- */
@@ -169,7 +169,7 @@ static size_t add_points(struct samples *samples, enum gb_calibrate_stage stage,
 }
 
 /* Simulates the design of a region, as far as it is new, and counts runs and failures in
- * result.  samples_finish is due. */
+ * result.  samples_finish must be called. */
 static bool samples_add(struct samples *samples, const struct region *region,
                         enum gb_calibrate_stage stage, struct gb_calibrate_result *result,
                         struct gb_error *err)

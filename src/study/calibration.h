@@ -25,10 +25,11 @@ struct gb_calibrate_problem {
     double to[GB_CALIBRATE_FREE];
     size_t data; /* measured values, not fewer than free; more without errors */
     const double *value;
-    const double *error;  /* standard errors; NULL: from the scatter of the fit */
-    const double *weight; /* what a value counts in the fit beside its error; NULL: 1 */
-    size_t replicas;      /* seeds, 3 or more */
-    bool coarse_stage;    /* false: the full stage only */
+    const double *error; /* standard errors; NULL: from the scatter of the fit */
+    const double
+        *weight;     /* weight of a value in the fit, in addition to its error; NULL: 1 */
+    size_t replicas; /* seeds, 3 or more */
+    bool coarse_stage; /* false: the full stage only */
 
     /* Simulates points x free parameters; out[points x replicas x data] gets the values,
      * NaN where a run failed. */
@@ -60,7 +61,8 @@ struct gb_calibrate_result {
 };
 
 /* Errors: GB_ERR_INPUT (too few data), those of simulate, and GB_ERR_GUARD
- * when too many runs failed.  gb_calibration_result_finish is due on success. */
+ * when too many runs failed.  After success gb_calibration_result_finish must be
+ * called. */
 bool gb_calibration_search(const struct gb_calibrate_problem *problem,
                            struct gb_calibrate_result *result, struct gb_error *err);
 
@@ -119,7 +121,7 @@ struct gb_calibration {
 };
 
 /* Fits keys to lab.  Errors: those of gb_calibration_search, of work and of the machine.
- * gb_calibration_finish is due in any case. */
+ * gb_calibration_finish must be called in any case. */
 bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err);
 
 void gb_calibration_finish(struct gb_calibration *calibration); /* zeroed is fine */

@@ -57,7 +57,7 @@ struct gb_card_options {
 
 void gb_card_options_init(struct gb_card_options *options);
 
-/* Errors: GB_ERR_INPUT naming the option and what is accepted. */
+/* Errors: GB_ERR_INPUT naming the option and what is expected. */
 bool gb_card_options_check(const struct gb_card_options *options, struct gb_error *err);
 
 /* Direction of probe `index`, rad. */

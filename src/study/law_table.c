@@ -478,7 +478,7 @@ static bool refuse(const char *option, const char *text, const char *accepted,
                         accepted);
 }
 
-/* All errors are GB_ERR_INPUT: option, what was given, what is accepted. */
+/* All errors are GB_ERR_INPUT: option, what was given, what is expected. */
 static bool law_points_at(struct law_points_at *at, const char *text,
                           struct gb_error *err)
 {

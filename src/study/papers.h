@@ -38,7 +38,7 @@ struct gb_papers_numbers {
 };
 
 /* Reads a file, NULL: the one of the program.  gb_papers_printed_finish is due in any case.
- * Errors: GB_ERR_INPUT with line, column and what is accepted; GB_ERR_MACHINE. */
+ * Errors: GB_ERR_INPUT with line, column and what is expected; GB_ERR_MACHINE. */
 bool gb_papers_printed_read(struct gb_papers_numbers *numbers, const char *path,
                             struct gb_error *err);
 

@@ -42,7 +42,7 @@ void gb_strength_options_init(struct gb_strength_options *options)
     };
 }
 
-/* Errors: GB_ERR_INPUT naming the option and what is accepted. */
+/* Errors: GB_ERR_INPUT naming the option and what is expected. */
 static bool strength_cell_check(const struct gb_strength_options *options,
                                 struct gb_error *err)
 {

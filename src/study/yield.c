@@ -340,7 +340,7 @@ static bool check_marks(const struct gb_keep_points *marks, struct gb_error *err
     return true;
 }
 
-/* Errors: GB_ERR_INPUT naming the option and what is accepted. */
+/* Errors: GB_ERR_INPUT naming the option and what is expected. */
 static bool yield_cell_check(const struct gb_yield_options *options, struct gb_error *err)
 {
     if (options->replicas < 1 || options->replicas > GB_YIELD_REPLICAS_MAX) {

@@ -344,7 +344,7 @@ static const char *const refused[][2] = {
     {"fit lab.csv --initial 1.5", "--initial 1.5: expected a relative density"},
     {"fit lab.csv --initial x", "--initial x: expected"},
     {"fit lab.csv --initial 0.6 --equation adams", "below the initial density 0.6"},
-    {"fit lab.csv -o fit.gif", "-o fit.gif: a name ending in"},
+    {"fit lab.csv -o fit.gif", "-o fit.gif: expected a name ending in"},
 };
 
 static void test_refused(void)

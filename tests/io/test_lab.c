@@ -403,7 +403,7 @@ static void test_question(const void *data)
     }
 }
 
-/* Refusals: one line, the line of the file, what is accepted. */
+/* Refusals: one line, the line of the file, what is expected. */
 static void test_refusals(void)
 {
     static const struct {

@@ -10,7 +10,7 @@
 
 /* Writes states and status in a thread of its own: the engine fills a record, the thread
  * writes the file and waits for the disk.  There is one record, the largest thing that a
- * run holds beside its packing.  The thread blocks all signals. */
+ * run holds besides its packing.  The thread blocks all signals. */
 struct gb_writer;
 
 /* store, params and model must outlive the writer. */

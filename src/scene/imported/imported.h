@@ -26,7 +26,7 @@ struct gb_imported {
  * named columns, recognised by content (docs/import.md).  The packing lives as long as the
  * process, one for each checksum; thread-safe.
  *
- * Errors: GB_ERR_INPUT "path:line: what was read, what is accepted"; GB_ERR_MACHINE;
+ * Errors: GB_ERR_INPUT "path:line: what was read, what is expected"; GB_ERR_MACHINE;
  * GB_ERR_MEMORY. */
 const struct gb_imported *gb_imported_load(const char *path, struct gb_error *err);
 

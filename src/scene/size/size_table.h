@@ -16,7 +16,7 @@
  * header row, a column `diameter` with units in its cells ("1.5 um") or `diameter_um` (or
  * another unit of length) without, and one column `share_number` or `share_volume`; other
  * columns are ignored.
- * Errors are one line with what is accepted, for a file after "path:line: "; table is
+ * Errors are one line with what is expected, for a file after "path:line: "; table is
  * untouched then. */
 bool gb_size_table_read(struct gb_sizetable *table, const char *text,
                         struct gb_error *err);
