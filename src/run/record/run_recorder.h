@@ -21,8 +21,8 @@ bool gb_run_recorder_writer_create(struct gb_writer **out, const struct gb_store
 /* Waits for files under way.  NULL is fine. */
 void gb_run_recorder_writer_destroy(struct gb_writer *writer);
 
-/* The record.  It belongs to the engine but for the time from gb_run_recorder_writer_send until it is
- * written, and stays as it was sent. */
+/* The record.  It belongs to the engine, except from gb_run_recorder_writer_send until it is
+ * written; writing does not change it. */
 struct gb_record *gb_run_recorder_writer_record(struct gb_writer *writer);
 
 enum gb_writer_outcome {
